@@ -7521,12 +7521,12 @@ cm</translation>
         <translation>Diese Aufnahme</translation>
     </message>
     <message>
-        <source>Next: camera</source>
-        <translation>Weiter: Kamera</translation>
-    </message>
-    <message>
         <source>Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.</source>
         <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>

@@ -7521,12 +7521,12 @@ cm</translation>
         <translation>Questa registrazione</translation>
     </message>
     <message>
-        <source>Next: camera</source>
-        <translation>Avanti: la telecamera</translation>
-    </message>
-    <message>
         <source>Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.</source>
         <translation>Serve per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
+    </message>
+    <message>
+        <source>Next</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>

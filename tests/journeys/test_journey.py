@@ -26,6 +26,7 @@ from carpus.core.records.recordings import spool_folder
 from carpus.core.records.session_setup import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_session
+from carpus.ui.shell.current_selection import SourceChoice
 from carpus.ui.shell.messages import MessageDialog, NoticeStrip
 from tests.journeys.conftest import Open
 from tests.journeys.takes import RANGE_DEG, SPEED, clicks_of
@@ -345,6 +346,21 @@ def cut_short(data_folder: Path) -> None:
     folder = spool_folder(data_folder) / "someone"
     folder.mkdir(parents=True)
     journal_of(folder / "cut.journal", 60).abandon()
+
+
+def test_camera_that_is_ready_is_opened_without_a_question_after_the_exercise(
+    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(MaintenanceCameras, "name", lambda _: "Depth camera")
+    journey = (desktop := open_desktop()).controller
+    wait(qtbot, lambda: journey.camera_state.is_connected)
+    opened: list[SourceChoice] = []
+    monkeypatch.setattr(journey.opener, "open", opened.append)
+    journey.exercise.open(desktop.library.patients.add(Patient("Linden 42", "right")))
+    click(qtbot, journey.exercise.screen.primary_button)
+    assert opened == [SourceChoice("camera")]
+    journey.camera.open()  # back from the markers: another source may be wanted
+    assert len(opened) == 1
 
 
 def test_simulated_camera_is_for_the_practice_patient_only(

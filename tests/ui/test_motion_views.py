@@ -53,6 +53,7 @@ def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) ->
         "Maximum grip aperture, thumb–index",
     ):
         assert name in names
+    assert not any("SPARC" in name for name in names), "on the researcher's page"
     assert screen.card.tables.task_table.isVisibleTo(screen)
 
 

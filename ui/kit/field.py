@@ -7,13 +7,15 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from datetime import date
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
     QButtonGroup,
     QComboBox,
     QHBoxLayout,
     QLineEdit,
+    QListWidget,
+    QSizePolicy,
     QSpinBox,
     QStyle,
     QStyleOptionComboBox,
@@ -257,6 +259,19 @@ class DegreesField(NumberField):
         if self.is_empty or math.isfinite(self.value()):
             return ""
         return self.tr("Up to {most}°, or empty").format(most=self._maximum)
+
+
+class PageIndex(QListWidget):
+    """Names of pages, one below the other, beside the page that is chosen; as wide as the longest name."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        super().__init__()
+        self.addItems(names)
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+
+    def sizeHint(self) -> QSize:
+        return QSize(self.sizeHintForColumn(0) + 16, super().sizeHint().height())
 
 
 class ChoiceRow(QWidget):

@@ -39,6 +39,10 @@ QCheckBox::indicator:disabled {{ border-color: {line}; }}
 QSpinBox::up-button, QSpinBox::down-button {{ width: 0; border: 0; }}
 QAbstractSpinBox QLineEdit, QComboBox QLineEdit {{ border: 0; background: transparent; min-height: 0; padding: 0; }}
 QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
+PageIndex {{ background: transparent; border: 0; outline: 0; font-weight: 500; }}
+PageIndex::item {{ color: {text}; min-height: {page}px; padding: 0 12px; border-radius: 8px; }}
+PageIndex::item:hover {{ background: {line}; }}
+PageIndex::item:selected {{ background: {soft}; color: {text}; }}
 QHeaderView::section {{ background: {canvas}; color: {text2}; border: 0; border-bottom: 1px solid {line};
   padding: 4px; }}
 QScrollArea {{ border: 0; background: transparent; }}
@@ -98,7 +102,7 @@ def apply_style(application: QApplication, theme: Theme) -> None:
     colors = {name: getattr(tokens, name) for name in _SHEET_TOKENS}
     sizes = {
         "pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36), "box": theme.px(16),
-        "card": CARD_RADIUS_PX,
+        "page": theme.px(36), "card": CARD_RADIUS_PX,
         "ring": CONTROL_RADIUS_PX + FOCUS_OUTSIDE_PX, "badge": theme.px(34),
         "pill": theme.px(40) // 2, "dim": DIM_ALPHA[theme.name],
     }  # fmt: skip

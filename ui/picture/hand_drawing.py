@@ -119,8 +119,13 @@ class HandDrawing(QWidget):
         words = self.tr("Right hand,\nfrom above") if self._side == "right" else self.tr("Left hand,\nfrom above")
         flag = Qt.AlignmentFlag.AlignLeft if self._side == "right" else Qt.AlignmentFlag.AlignRight
         painter.drawText(frame.adjusted(16, 14, -16, 0), int(flag), words)
+        mark_scale = min(1.0, 1.2 * to.m22())  # in a small drawing the marks of the fingertips would lie on each other
         for number, name in sorted(enumerate(self._order), key=lambda item: self._states[item[1]] == "next"):
-            self._paint_marker(painter, to.map(QPointF(*MARKER_POSITIONS[name])), self._states[name], number + 1)
+            painter.save()
+            painter.translate(to.map(QPointF(*MARKER_POSITIONS[name])))
+            painter.scale(mark_scale, mark_scale)
+            self._paint_marker(painter, QPointF(), self._states[name], number + 1)
+            painter.restore()
 
     def _paint_marker(self, painter: QPainter, at: QPointF, state: MarkerState, number: int) -> None:
         color = self._theme.color

@@ -9,10 +9,12 @@ A left hand is the mirror image.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
+from itertools import pairwise
 
-from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtCore import QLineF, QPointF, QRectF
 from PySide6.QtGui import QPainterPath, QPolygonF, QTransform
 
 from carpus.core.model.hand.exercises import DEVIATION, FLEXION, PRONOSUPINATION, Exercise
@@ -65,6 +67,8 @@ class DrawnPose:
     hand_and_arm: QPainterPath
     dots: tuple[QPointF, ...]
     dot_radius: float
+    digits: tuple[QPainterPath, ...] = ()
+    """What lies over the hand, to be drawn after it: a bent finger and the thumb, open where they grow out of it."""
 
 
 def build_pose(exercise: Exercise, value_deg: float) -> DrawnPose:
@@ -82,8 +86,9 @@ def _build_pose(exercise: Exercise, value_deg: float) -> DrawnPose:
         return draw_forearm_view(value_deg)
     if exercise.joint.startswith("MCP") and exercise.joint.endswith("flexion"):
         return draw_side_view(
-            knuckle_deg=value_deg, middle_deg=1.1 * value_deg, end_deg=0.7 * value_deg, thumb_deg=_THUMB_AWAY_DEG
-        )
+            knuckle_deg=value_deg, middle_deg=1.1 * value_deg, end_deg=0.7 * value_deg,
+            thumb_deg=_THUMB_AWAY_DEG - 0.4 * min(max(value_deg, 0.0), 90.0),
+        )  # fmt: skip
     if exercise.joint.startswith("PIP"):
         return draw_side_view(middle_deg=value_deg, end_deg=0.66 * value_deg, thumb_deg=_THUMB_AWAY_DEG)
     if exercise.joint.startswith("CMC1"):
@@ -133,21 +138,25 @@ def draw_side_view(
 ) -> DrawnPose:  # fmt: skip
     """Draw the hand from the side, palm down: flexion points down, the thumb moves away from the palm."""
     hand = _draw_capsule(QPointF(0, 0), 46.0, _KNUCKLE, 36.0)
-    at, turned = _KNUCKLE, 0.0
+    at, turned, joints = _KNUCKLE, 0.0, []
     for (length, first, last), bent in zip(_FINGER, (knuckle_deg, middle_deg, end_deg), strict=True):
         turned += math.radians(bent)
         then = at + QPointF(math.cos(turned), math.sin(turned)) * length
         hand = hand.united(_draw_capsule(at, first, then, last))
+        joints.append((then, last))
         at = then
+    finger = _draw_digit(joints)
     turned = math.radians(_THUMB_REST_DEG + thumb_deg)
     along = QPointF(math.cos(turned), math.sin(turned))
     middle = _THUMB_BASE + along * (0.19 * LENGTH)
     hand = hand.united(_draw_capsule(_THUMB_BASE, 30.0, middle, 24.0))
-    hand = hand.united(_draw_capsule(middle, 24.0, middle + along * (0.16 * LENGTH), 18.0))
+    tip = middle + along * (0.16 * LENGTH)
+    hand = hand.united(_draw_capsule(middle, 24.0, tip, 18.0))
+    thumb = _draw_digit([(_THUMB_BASE + along * 30.0, 29.0), (middle, 24.0), (tip, 18.0)])
     hand = _without_holes(hand)
     to = QTransform().rotate(wrist_deg)
     dots = (to.map(QPointF(4, -36)), to.map(_KNUCKLE + QPointF(0, -28)))
-    return _make_pose(_draw_arm(False), to.map(hand), dots, 9.0)
+    return replace(_make_pose(_draw_arm(False), to.map(hand), dots, 9.0), digits=(to.map(finger), to.map(thumb)))
 
 
 # --- from above -------------------------------------------------------------------------------------------
@@ -190,6 +199,24 @@ def draw_forearm_view(supination_deg: float) -> DrawnPose:
 
 def _make_pose(arm: QPainterPath, hand: QPainterPath, dots: tuple[QPointF, ...], dot_radius: float = 11.0) -> DrawnPose:
     return DrawnPose(arm, hand, arm.united(hand), dots, dot_radius)
+
+
+def _draw_digit(joints: Sequence[tuple[QPointF, float]]) -> QPainterPath:
+    """Draw the outline of a digit from its first joint round the tip to the joint before it; joints with radii."""
+    path, corners, normal = QPainterPath(), list[QPointF](), QPointF()
+    for (start, first), (end, last) in pairwise(joints):
+        normal = QPointF(start.y() - end.y(), end.x() - start.x())
+        normal /= math.hypot(normal.x(), normal.y())
+        corners += [start + normal * first, end + normal * last]
+    if len(corners) == 4:  # both phalanges meet at the inner side of the joint between them
+        ends = QLineF(*corners[:2]).intersects(QLineF(*corners[2:]))
+        corners[1:3] = [ends[1]] if ends[0] != QLineF.IntersectionType.NoIntersection else corners[1:3]
+    path.addPolygon(QPolygonF(corners))
+    (before, width), (tip, radius) = joints[-2:]
+    start_deg = QLineF(tip, corners[-1]).angle()
+    path.arcTo(QRectF(tip.x() - radius, tip.y() - radius, 2 * radius, 2 * radius), start_deg, 180.0)
+    path.lineTo(before - normal * width)
+    return path
 
 
 def _without_holes(path: QPainterPath) -> QPainterPath:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPainterPath, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -13,6 +14,25 @@ from carpus.ui.kit.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
 from carpus.ui.picture.convert import to_qimage
 
 LABEL_ALPHA = 180
+# A marker's blue is so much above its red and green; the photo reaches so many times the markers' extent from their
+# middle.
+MIN_BLUE_EXCESS, MARGIN_EXTENTS = 40, 1.2
+MIN_BLUE_PIXELS = 30
+
+
+def crop_to_markers(color_rgb: ByteImage) -> ByteImage:
+    """Return the part of a photo around its blue markers, in its aspect ratio; all of it without markers."""
+    red, green, blue = np.moveaxis(color_rgb.astype(np.int16), -1, 0)
+    rows, columns = np.nonzero(blue - np.maximum(red, green) > MIN_BLUE_EXCESS)
+    if len(rows) < MIN_BLUE_PIXELS:
+        return color_rgb
+    height, width = blue.shape
+    (top, bottom), (left, right) = (np.percentile(places, (2, 98)) for places in (rows, columns))
+    high = min(2.0 * MARGIN_EXTENTS * max(bottom - top, right - left), height)
+    wide = high * width / height
+    first_row = int(np.clip((top + bottom - high) / 2, 0, height - high))
+    first_column = int(np.clip((left + right - wide) / 2, 0, width - wide))
+    return color_rgb[first_row : first_row + int(high), first_column : first_column + int(wide)]
 
 
 def fit_box(size: QSize, bounds: QRectF) -> QRectF:
@@ -68,8 +88,8 @@ class Photo(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
 
     def show_picture(self, color_rgb: ByteImage | None, label: str) -> None:
-        """Show a photo; without one the widget is hidden."""
-        self._image = None if color_rgb is None else to_qimage(color_rgb)
+        """Show the part of a photo around the markers; without one the widget is hidden."""
+        self._image = None if color_rgb is None else to_qimage(crop_to_markers(color_rgb))
         self._label = label
         self.setVisible(self._image is not None and self._has_room)
         self.setAccessibleName(label)
@@ -81,7 +101,7 @@ class Photo(QWidget):
         self.setVisible(self._image is not None and has_room)
 
     def sizeHint(self) -> QSize:
-        return QSize(280, 185)
+        return QSize(280, 250)
 
     def layout_boxes(self) -> tuple[QRectF, QPointF]:
         """Return the box of the photo and the position of its label."""

@@ -324,8 +324,10 @@ def _paint_hand(
 ) -> None:  # fmt: skip
     style = Qt.PenStyle.DashLine if is_dashed else Qt.PenStyle.SolidLine
     painter.setPen(QPen(PAPER.color(token), 1.1 * UNIT, style))
-    painter.setBrush(PAPER.color("surface") if is_filled and not is_dashed else Qt.BrushStyle.NoBrush)
-    painter.drawPath(transform.map(build_pose(exercise, value_deg).hand_and_arm))
+    is_solid, hand = is_filled and not is_dashed, build_pose(exercise, value_deg)
+    painter.setBrush(PAPER.color("surface") if is_solid else Qt.BrushStyle.NoBrush)
+    for path in (hand.hand_and_arm, *(hand.digits if is_solid else ())):
+        painter.drawPath(transform.map(path))
 
 
 def _paint_progress_hands(

@@ -39,13 +39,14 @@ TASK_COLUMNS = (TableColumn(token="text2"), TableColumn(SEMIBOLD), TableColumn(i
 
 
 def task_table(
-    results: SessionResults, previous: SessionResults | None = None, *, has_thumb_paths: bool = True
+    results: SessionResults, previous: SessionResults | None = None, *, is_for_research: bool = True
 ) -> TableContent:
-    """Return the task measures, two to a line: outward beside return strokes; opposition's paths are for research."""
+    """Return the task measures, two to a line: SPARC and opposition's paths are for research."""
     cells: list[TableRow] = [
         (measure_name(item), value_words(item), _last_value(item, previous))
         for item in _pair_strokes(results.measures_in_group("task"))
-        if (math.isfinite(item.mean) or _is_listed(item)) and (has_thumb_paths or "thumb " not in item.subject)
+        if (math.isfinite(item.mean) or _is_listed(item))
+        and (is_for_research or ("thumb " not in item.subject and item.quantity != "smoothness"))
     ]
     cells += [("", "", "")] * (len(cells) % 2)
     day = numbers.format_distinct_day(previous.when, results.when) if previous is not None else ""

@@ -6,13 +6,14 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QButtonGroup, QFileDialog, QFrame, QTextBrowser, QWidget
+from PySide6.QtWidgets import QFileDialog, QFrame, QTextBrowser, QWidget
 
 from carpus.core.model.errors import CarpusFault
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
+from carpus.ui.kit.field import PageIndex
 from carpus.ui.kit.keys import KEYS, action_words
-from carpus.ui.kit.layouts import column_layout, row_layout, scroll_column
+from carpus.ui.kit.layouts import column_layout, row_layout
 from carpus.ui.kit.text import Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.screens.help import cards, guide
@@ -49,23 +50,14 @@ class HelpScreen(QWidget):
         self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.page_view = _PageView(theme)
         self.page_view.page_requested.connect(self.show_page)
-        self.page_buttons: dict[str, Button] = {}
-        self._group = QButtonGroup(self)
-        column = column_layout(gap=2)
-        for name in (*guide.PAGES, guide.KEYS_PAGE):
-            words = self.tr("Keys") if name == guide.KEYS_PAGE else guide.page_title(name)
-            button = Button(theme, words, "well", height_px=36)
-            button.setCheckable(True)
-            button.clicked.connect(lambda _=False, name=name: self.show_page(name))
-            self._group.addButton(button)
-            self.page_buttons[name] = button
-            column.addWidget(button)
-        column.addStretch(1)
+        self._names = (*guide.PAGES, guide.KEYS_PAGE)
+        self.index = PageIndex([*map(guide.page_title, guide.PAGES), self.tr("Keys")])
+        self.index.setAccessibleName(self.tr("Guide"))
+        self.index.currentRowChanged.connect(lambda row: self.show_page(self._names[row]))
         head = row_layout((heading(theme, self.tr("Guide")), 1), self.tour_button, self.cards_button, self.back_button)
         card = Card(theme, 8)
         card.body.addWidget(self.page_view, 1)
-        self._index = scroll_column(column)
-        columns = row_layout(self._index, (card, 1), gap=GAP_PX)
+        columns = row_layout(self.index, (card, 1), gap=GAP_PX)
         column_layout(
             head,
             (columns, 1),
@@ -74,19 +66,21 @@ class HelpScreen(QWidget):
             margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
             parent=self,
         )
-        theme.changed.connect(self._fit)
-        self._fit()
+        theme.changed.connect(self._show_again)
+        self._show_again()
 
     def initial_focus(self) -> QWidget:
         return self.page_view
 
-    def _fit(self) -> None:
-        self._index.setFixedWidth(self._theme.px(272))
+    def _show_again(self) -> None:
         self.show_page(self.page)
 
     def show_page(self, name: str) -> None:
         self.page = name
-        self.page_buttons[name].setChecked(True)
+        row = self._names.index(name)
+        if row != self.index.currentRow():
+            self.index.setCurrentRow(row)  # comes back here
+            return
         if name == guide.KEYS_PAGE:
             rows = [(key, "\n".join(words)) for key, words in actions_by_key().items()]
             self.page_view.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
@@ -94,11 +88,11 @@ class HelpScreen(QWidget):
             self.page_view.show_html(guide.page_html(name, self._theme, self._picture_px()))
 
     def _picture_px(self) -> int:
-        return max(200, min(self._theme.px(PICTURE_PX), self.width() - self._theme.px(272) - 120))
+        return max(200, min(self._theme.px(PICTURE_PX), self.width() - self.index.sizeHint().width() - 120))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         if event.oldSize().width() != self.width():
-            self.show_page(self.page)
+            self._show_again()
 
     def _choose_cards_file(self) -> None:
         start = str(Path(self.start_folder) / cards.FILE_NAME)

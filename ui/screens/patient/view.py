@@ -183,7 +183,8 @@ class PatientView(QWidget):
             QPen(color("text2"), line, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
         )
         painter.setBrush(_skin_color(self._theme, self.audience))
-        painter.drawPath(to.map(hand.hand_and_arm))
+        for path in (hand.hand_and_arm, *hand.digits):
+            painter.drawPath(to.map(path))
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(color("flexion"))
         for dot in hand.dots:

@@ -26,7 +26,7 @@ from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle, progress_measure_name
 from carpus.ui.words.verdicts import change_since_first, duplicate_result_words, verdict_token
 
-PHOTO_MIN_HEIGHT_PX, DIAGNOSIS_PX = 600, 100
+PHOTO_MIN_HEIGHT_PX, DIAGNOSIS_PX = 680, 100
 MIN_SUMMARY_PX = 92
 SUMMARY_BESIDE_TOUR_PX = 440
 

@@ -226,7 +226,7 @@ class ResultTables(ScrollArea):
         self.passive_note.setVisible(found is not None and bool(found.note))
 
     def _show_task_measures(self, results: SessionResults, previous: SessionResults | None, *, is_hand: bool) -> None:
-        found = task_table(results, previous, has_thumb_paths=False)
+        found = task_table(results, previous, is_for_research=False)
         self.task_title.setText(task_title(results))
         self.task_table.show_rows(*found)
         self._task_section.setVisible(bool(found.rows))

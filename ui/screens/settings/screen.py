@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QApplication, QButtonGroup, QCheckBox, QFileDialog, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.model.phrase import LANGUAGES
@@ -15,7 +15,7 @@ from carpus.core.platform.about import is_newer
 from carpus.core.platform.version import __version__
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
-from carpus.ui.kit.field import ChoiceRow
+from carpus.ui.kit.field import ChoiceRow, PageIndex
 from carpus.ui.kit.forms import Field, Form
 from carpus.ui.kit.layouts import Part, ScrollArea, ScrolledColumn, column_layout, fill, row_layout
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
@@ -150,7 +150,7 @@ class SettingsScreen(QWidget):
             gap=16,
             margins=(0, 0, 8, 0),
         )
-        beside = row_layout(self._index_column, (self._page_stack, 1), gap=GAP_PX)
+        beside = row_layout(self.index, (self._page_stack, 1), gap=GAP_PX)
         column_layout(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), parent=self)
 
     def _make_about_card(self) -> Card:
@@ -177,25 +177,16 @@ class SettingsScreen(QWidget):
             "research": self.tr("Research"), "about": self.tr("About Carpus"),
         }  # fmt: skip
         self._page_stack = QStackedWidget()
-        self.page_buttons: dict[SettingsPage, Button] = {}
-        group = QButtonGroup(self)
-        index = column_layout(gap=4)
-        for number, (part, page) in enumerate(self._pages.items()):
+        for page in self._pages.values():
             page.setContentsMargins(0, 4, 12, 4)
             page.setSpacing(GAP_PX)
             page.addStretch(1)
             host = ScrolledColumn()
             host.setLayout(page)
             self._page_stack.addWidget(ScrollArea(host))
-            button = self.page_buttons[part] = Button(self._theme, titles[part], "quiet", height_px=40)
-            button.setCheckable(True)
-            group.addButton(button, number)
-            index.addWidget(button)
-        index.addStretch(1)
-        group.idClicked.connect(lambda number: self.show_page(get_args(SettingsPage)[number]))
-        self._index_column = QWidget()
-        index.setContentsMargins(0, 4, 0, 4)
-        self._index_column.setLayout(index)
+        self.index = PageIndex([titles[part] for part in self._pages])
+        self.index.setAccessibleName(self.tr("Settings"))
+        self.index.currentRowChanged.connect(self._page_stack.setCurrentIndex)
 
     def show_limits(self, measured: ErrorLimits) -> None:
         self._clinic_limits = measured
@@ -228,15 +219,14 @@ class SettingsScreen(QWidget):
         self._show_research_cards()
 
     def show_page(self, part: SettingsPage) -> None:
-        self.page_buttons[part].setChecked(True)
-        self._page_stack.setCurrentIndex(get_args(SettingsPage).index(part))
+        self.index.setCurrentRow(get_args(SettingsPage).index(part))
 
     def _show_research_cards(self) -> None:
         """Show cards for research only if switched on, and hide empty pages."""
         for card in self._research_cards:
             card.setVisible(self.preferences.research)
-        for part, page in self._pages.items():
-            self.page_buttons[part].setVisible(page.count() > 1)
+        for number, page in enumerate(self._pages.values()):
+            self.index.setRowHidden(number, page.count() == 1)
 
     def _make_card(self, title: str, words: str, *parts: Part) -> Card:
         card = Card(self._theme, 24)

@@ -65,7 +65,7 @@ class ExerciseScreen(QWidget):
         self.proposal_label = Text(theme, "", 14, token="text2", wrap=True)
         self.proposal_button = Button(theme, self.tr("Use as goals"), "plain", height_px=36)
         self.disk_space_label = caption(theme, wrap=True)
-        self.primary_button = Button(theme, self.tr("Next: camera"), "primary", icon="arrow-right", hint=ENTER_KEY)
+        self.primary_button = Button(theme, self.tr("Next"), "primary", icon="arrow-right", hint=ENTER_KEY)
         self.target_fields = tuple(
             DegreesField(theme, MAX_TARGET_DEG, self.tr("no goal"), direction) for direction in (1.0, -1.0)
         )
@@ -298,7 +298,7 @@ class ExerciseScreen(QWidget):
         of_side = wrong is self.form["side"]
         self.problem_label.show_text("" if of_side else words)
         self.primary_button.setEnabled(not words)
-        self.primary_button.set_label(words if of_side else self.tr("Next: camera"))
+        self.primary_button.set_label(words if of_side else self.tr("Next"))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if not (is_enter_key(event) and press_default(self.primary_button)):

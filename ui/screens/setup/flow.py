@@ -75,7 +75,7 @@ class ExerciseFlow(Flow):
 
     def _on_set_up_chosen(self, set_up: SessionSetup) -> None:
         self.context.current.set_up = set_up
-        self.context.navigator.open_screen("camera")
+        self.context.navigator.open_screen("camera", "", True)
 
     # --- sets of exercises --------------------------------------------------------------------------------
     def load_sets(self) -> None:
@@ -123,8 +123,8 @@ class CameraFlow(Flow):
         opener.failed.connect(self._on_failed)
         opener.progress_changed.connect(screen.show_progress)
 
-    def open(self, patient_id: str = "") -> None:
-        """Open for the chosen set-up.
+    def open(self, patient_id: str = "", goes_on: bool = False) -> None:
+        """Open for the chosen set-up; ``goes_on`` opens a camera that is ready without asking.
 
         For a patient the last set-up is used, and the source opened at once if possible; without one, the exercise is
         asked for.
@@ -132,18 +132,22 @@ class CameraFlow(Flow):
         now, way = self.context.current, self.context.navigator
         if not patient_id:
             self._show_screen()
+            if goes_on:
+                self._open_ready_source()
             return
         row = self.open_patient(patient_id)
         last = read_or_default(lambda: read_last_setup(self.context.library.store, patient_id), None)
-        practises = patient_id == PRACTICE_PATIENT
-        if practises:
-            now.source_choice = SourceChoice("practice")
-        elif last is None:
+        if last is None and patient_id != PRACTICE_PATIENT:
             way.open_screen("exercise", patient_id)
             return
         now.set_up = last or practice_setup(row.pseudonym)
         self._show_screen()
-        if practises or (now.source_kind != "file" and self.context.camera.is_connected):
+        self._open_ready_source()
+
+    def _open_ready_source(self) -> None:
+        """Open the source if there is nothing to choose: no recording is wanted and the camera is ready."""
+        now = self.context.current
+        if now.source_kind == "practice" or (now.source_kind == "camera" and self.context.camera.is_connected):
             self.context.opener.open(now.source_choice)
 
     def _show_screen(self) -> None:
@@ -157,7 +161,9 @@ class CameraFlow(Flow):
             now.source_choice = SourceChoice(
                 "camera"
             )  # nobody else is measured on the practice patient's without being asked
-        self.screen.show_set_up(now.set_up, "practice" if practises else now.source_kind)
+        if practises:
+            now.source_choice = SourceChoice("practice")
+        self.screen.show_set_up(now.set_up, now.source_kind)
         self.context.navigator.switch_screen("camera")
 
     def navigate_back(self) -> None:
