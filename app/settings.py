@@ -379,7 +379,7 @@ def _parse_toml(name: str, data: bytes) -> Values:
     try:
         return tomllib.loads(data.decode("utf-8"))
     except RecursionError as cause:
-        raise SettingsInvalid(name, phrase("not TOML: endlessly nested tables")) from cause
+        raise SettingsInvalid(name, phrase("not a valid TOML file: too many nested tables")) from cause
     except ValueError as cause:  # TOML's own faults, text that is none, numbers without end
         raise SettingsInvalid(name, f"not TOML: {cause}"[:200]) from cause
 
@@ -400,7 +400,7 @@ def _build_section(kind: type[T], values: Values, where: str, file: str) -> T:
     for name, value in values.items():
         place = f"{where}.{name}" if where else name
         if name not in known:
-            raise SettingsInvalid(place, phrase("there is no such setting, in {file}", file=file))
+            raise SettingsInvalid(place, phrase("this setting does not exist (file {file})", file=file))
         hint = hints[name]
         is_section = isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping)
         found[name] = (

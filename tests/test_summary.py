@@ -63,7 +63,7 @@ def test_session_summary_has_plain_lines(tmp_path: Path) -> None:
     assert "fx 570.25" in facts["Camera"]
     assert sum(line.endswith("not measured") for line in lines) == 3, "three frames are no range"
     text = "\n".join(lines)
-    assert "Index and middle finger MCP look swapped; swap the two labels" in text
+    assert "The labels of index and middle finger MCP seem to be swapped; swap the two labels" in text
     assert "Start angles as given by the therapist" in text
     assert "nan" not in text
 

@@ -233,7 +233,9 @@ class WelcomeController(QObject):
         room = QGuiApplication.primaryScreen().availableGeometry()
         found = self.tr("{width} × {height} for windows").format(width=room.width(), height=room.height())
         small = room.width() < MIN_SIZE_PX[0] or room.height() < MIN_SIZE_PX[1]
-        remedy = self.tr("Choose more pixels, or a smaller scale, in the display settings: {width} × {height} or more.")
+        remedy = self.tr(
+            "In the display settings, choose a higher resolution or a smaller scale: {width} × {height} or more."
+        )
         checks = [
             Finding(name, "warning", found, remedy.format(width=MIN_SIZE_PX[0], height=MIN_SIZE_PX[1]))
             if small
@@ -241,7 +243,7 @@ class WelcomeController(QObject):
         ]
         if not {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts()):
             remedy = self.tr("Install Carpus again: part of it is missing or damaged.")
-            checks.append(Finding(self.tr("Fonts"), "bad", self.tr("the fonts of Carpus cannot be used"), remedy))
+            checks.append(Finding(self.tr("Fonts"), "bad", self.tr("the fonts of Carpus cannot be loaded"), remedy))
         folder, here = self._folder, checks
 
         def show_findings(found: list[Finding]) -> None:

@@ -148,13 +148,16 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
         phrase("The clicks for the {markers} are on one marker."),
         phrase("Click each of the two on its own marker."),
     ),
-    "swapped": (phrase("{markers} look swapped."), phrase("Swap the two labels, or click both markers again.")),
+    "swapped": (
+        phrase("The labels of {markers} seem to be swapped."),
+        phrase("Swap the two labels, or click both markers again."),
+    ),
     "misnamed": (
         phrase("The {markers} does not lie on the line of its finger."),
         phrase("Check the lines on the image, and give the marker its correct label."),
     ),
     "shifted": (
-        phrase("The labels look shifted: the marker clicked as {first} is the {second}."),
+        phrase("The labels seem to be shifted: the marker clicked as {first} is probably the {second}."),
         phrase("Click all markers again, each under its own label."),
     ),
     "wrong_side": (
@@ -167,30 +170,30 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
     ),
     "residual": (
         phrase("The {markers} marker is {value} mm from its expected position (up to {limit} mm is good)."),
-        phrase("Click it again in its centre, and keep the hand still."),
+        phrase("Click the centre of the marker again, and keep the hand still."),
     ),
     "hand_length": (
-        phrase("The hand measures {value} mm (the limit is {limit} mm)."),
+        phrase("The hand length is {value} mm (the limit is {limit} mm)."),
         phrase("Check that every marker is clicked under its own label."),
     ),
     "other_spot": (
-        phrase("Another blue spot fits the {markers} better."),
+        phrase("Another blue spot fits the {markers} better than the clicked one."),
         phrase("Choose the spot with the question mark, if it is the marker."),
     ),
     "spare_spot": (
         phrase("There is one more blue spot on the hand than there are labels."),
-        phrase("Cover the spot with the question mark, or give it its label."),
+        phrase("Cover the spot with the question mark, or give it the correct label."),
     ),
     "near_spot": (
         phrase("Another blue spot is close to the {markers}: it may be the marker."),
-        phrase("Click the {markers} again in its centre, or cover the other spot."),
+        phrase("Click the centre of the {markers} again, or cover the other spot."),
     ),
     "no_palm": (
-        phrase("No hand has this shape: the {markers} does not fit the other markers."),
+        phrase("The {markers} does not fit the other markers: no hand has this shape."),
         phrase("Check that a marker was clicked there, and not another blue spot."),
     ),
     "other_length": (
-        phrase("The hand measures {value} mm. Last time it measured {limit} mm."),
+        phrase("The hand length is {value} mm. Last time it was {limit} mm."),
         phrase("Check the patient, the side, and that every marker is clicked under its own label."),
     ),
     "tilt": (
@@ -206,7 +209,7 @@ FINDING_TEXTS: dict[str, tuple[Phrase, Phrase]] = {
         phrase("Keep the hand still and take the first image again."),
     ),
     "few_frames": (
-        phrase("The hand was still for {value} frames only ({limit} or more are good)."),
+        phrase("The hand was still for only {value} frames ({limit} or more are good)."),
         phrase("Keep the hand still for half a second."),
     ),
     "depth_off": (

@@ -346,13 +346,13 @@ def check_camera_settings(info: SourceInfo, frames: list[Frame], arrived_s: list
     settings, findings = info.settings, []
     registered, name = settings.get("registered", ""), phrase("Depth registration")
     if registered == "no":
-        remedy = phrase("This camera does not align depth with colour. Depths will be read next to the markers.")
+        remedy = phrase("This camera does not align depth with colour, so depths at the markers will be wrong.")
         findings.append(Finding(name, "warning", phrase("depth and colour are not aligned"), remedy))
     elif registered:
         found = phrase("depth and colour are aligned, {registered}", registered=registered)
         findings.append(Finding(name, "good", found))
     turned = settings.get("mirrored", "no") != "no"
-    findings.append(Finding(phrase("Mirror"), "good", phrase("on, corrected by Carpus") if turned else phrase("off")))
+    findings.append(Finding(phrase("Mirror"), "good", phrase("on; Carpus corrects it") if turned else phrase("off")))
     if len(frames) > 1:
         own_s, here_s = frames[-1].timestamp_s - frames[0].timestamp_s, arrived_s[-1] - arrived_s[0]
         findings.append(check_clock(own_s, here_s, settings.get("clock", "")))

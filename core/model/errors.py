@@ -79,7 +79,7 @@ class RecordingMissing(CarpusFault, code="C-101"):
 class RecordingUnreadable(CarpusFault, code="C-102"):
     summary = phrase("The recording cannot be read: {subject} ({detail}).")
     data_safety = _RECORDING_UNCHANGED
-    remedy = phrase("Copy the recording again, or correct its list of frames.")
+    remedy = phrase("Copy the recording again from its source, or correct its list of frames.")
 
 
 class RecordingEmpty(CarpusFault, code="C-103"):
@@ -133,9 +133,9 @@ class ClicksUnreadable(CarpusFault, code="C-301"):
 
 
 class ProtocolUnknown(CarpusFault, code="C-302"):
-    summary = phrase("There is no marker set called {subject} ({detail}).")
+    summary = phrase("There is no marker set with the name {subject} ({detail}).")
     data_safety = _UNCHANGED
-    remedy = phrase("Use wrist6 or hand21.")
+    remedy = phrase("Use the marker set wrist6 or hand21.")
 
 
 class ClickOutsideImage(CarpusFault, code="C-303"):
@@ -164,7 +164,7 @@ class CalibrationImpossible(CarpusFault, code="C-306"):
 
 class OutputExists(CarpusFault, code="C-401"):
     summary = phrase("A file with this name already exists: {subject}.")
-    data_safety = phrase("That file was not changed.")
+    data_safety = phrase("The file was not changed.")
     remedy = phrase("Choose another name.")
 
 
@@ -191,75 +191,75 @@ class CompiledPartMissing(CarpusFault, code="C-002"):
 
 
 class SchedulerUnreachable(CarpusFault, code="C-003"):
-    summary = phrase("The scheduler at {subject} does not answer ({detail}).")
+    summary = phrase("The Dask scheduler at {subject} does not respond ({detail}).")
     data_safety = _UNCHANGED
-    remedy = phrase("Check the address.")
-    support = phrase("Without --scheduler this computer does the work.")
+    remedy = phrase("Check the address of the scheduler.")
+    support = phrase("Without the option --scheduler, this computer tracks the recordings.")
 
 
 class OutputBusy(CarpusFault, code="C-402"):
     summary = phrase("Another program is writing {subject}.")
     data_safety = phrase("Carpus did not write to it.")
-    remedy = phrase("Wait until it has finished, or choose another folder.")
+    remedy = phrase("Wait until the other program has finished, or choose another folder.")
 
 
 class OutputNotWritable(CarpusFault, code="C-403"):
     summary = phrase("Carpus cannot write to {subject} ({detail}).")
     data_safety = phrase("Everything saved before is safe.")
-    remedy = phrase("Check that the folder exists and that you may write there, or choose another folder.")
+    remedy = phrase("Check that the folder exists and that you are allowed to write to it, or choose another folder.")
 
 
 class DiskFull(CarpusFault, code="C-404"):
     """What was written before is kept."""
 
     summary = phrase("The disk has no space left for {subject} ({detail}).")
-    data_safety = phrase("Everything saved before is safe. What was being written may be missing.")
+    data_safety = phrase("Everything saved before is safe. The data that Carpus was writing may be missing.")
     remedy = phrase("Remove files that do not belong to Carpus, or choose another disk.")
 
 
 class SessionUnreadable(CarpusFault, code="C-501"):
     summary = phrase("This session cannot be opened: {subject} ({detail}).")
     data_safety = phrase("The file was not changed. All other sessions are safe.")
-    remedy = phrase("If it was copied, copy it again. Otherwise restore it from a backup.")
+    remedy = phrase("If you copied the file, copy it again. Otherwise restore it from a backup.")
 
 
 class SessionMissing(SessionUnreadable, code="C-502"):
     summary = phrase("File not found: {subject}.")
     data_safety = _UNCHANGED
-    remedy = phrase("Check the path.")
+    remedy = phrase("Check the name and the folder.")
 
 
 class SessionChanged(CarpusFault, code="C-503"):
     summary = phrase("This session was modified after it was completed: {subject}.")
-    data_safety = phrase("It can be opened, but its values may have been altered.")
-    remedy = phrase("Use the copy in a backup.")
-    support = phrase("Its SHA-256 checksum does not match.")
+    data_safety = phrase("The session can be opened, but its values may have been altered.")
+    remedy = phrase("Restore the session from a backup.")
+    support = phrase("The SHA-256 checksum of the file does not match.")
 
 
 class SessionUnfinished(SessionUnreadable, code="C-504"):
     """Part file of Carpus 0.2.0, which only its recovery reads."""
 
     summary = phrase("This session is not finished: {subject}.")
-    data_safety = phrase("What was recorded is safe.")
-    remedy = phrase("Wait until its recording has ended, or restart Carpus: it completes the session.")
-    support = phrase("“carpus recover” completes it too.")
+    data_safety = phrase("Everything recorded is safe.")
+    remedy = phrase("Wait until the recording has ended, or restart Carpus to complete the session.")
+    support = phrase("“carpus recover” also completes the session.")
 
 
 class ReferenceUnreadable(CarpusFault, code="C-601"):
     summary = phrase("The reference cannot be read: {subject} ({detail}).")
     data_safety = _SESSION_REFERENCE
-    remedy = phrase("Use C3D, TRC, MOT, a CSV table with its column map, or a session.")
+    remedy = phrase("Use a C3D, TRC or MOT file, a CSV table with its column map, or a session.")
 
 
 class ReferenceUnsuited(CarpusFault, code="C-602"):
-    summary = phrase("The reference has nothing to compare: {subject} ({detail}).")
+    summary = phrase("The reference contains nothing that can be compared: {subject} ({detail}).")
     data_safety = _SESSION_REFERENCE
-    remedy = phrase("Check that it is the same movement, and state which column or marker is which.")
+    remedy = phrase("Check that the reference shows the same movement, and state which column or marker is which.")
 
 
 class StudyUnsuited(CarpusFault, code="C-603"):
-    summary = phrase("These sessions are not a test–retest study: {subject} ({detail}).")
-    data_safety = phrase("The MDC values stay as they are.")
+    summary = phrase("These sessions cannot be used as a test–retest study: {subject} ({detail}).")
+    data_safety = phrase("The MDC values were not changed.")
     remedy = phrase("Measure at least 10 people twice within 14 days, and replace the markers each time.")
 
 
@@ -275,25 +275,25 @@ class ConcurrentChange(CarpusFault, code="C-701"):
 
     summary = phrase("Someone else changed this record, so your change was not saved.")
     data_safety = phrase("The other change is saved.")
-    remedy = phrase("Open it again and enter your change once more.")
+    remedy = phrase("Open the record again and enter your change once more.")
 
 
 class PseudonymNumbered(CarpusFault, code="C-702"):
     """A pseudonym was given on two computers before they shared a store; ``detail`` was added to the second."""
 
-    summary = phrase("Two patients had the name {subject}: the second one now has ({detail}) after it.")
+    summary = phrase("Two patients had the pseudonym {subject}. The second one now has ({detail}) after it.")
     data_safety = phrase("Their sessions stay separate.")
-    remedy = phrase("If another name is better, change it in the patient’s entry.")
+    remedy = phrase("To use another pseudonym, edit the patient.")
 
 
 class ServerUnavailable(CarpusFault, code="C-703"):
-    summary = phrase("The clinic’s records server does not answer: {subject} ({detail}).")
-    data_safety = phrase("All sessions are safe. What was being entered may not be saved.")
-    remedy = phrase("Continue measuring. If the server still does not answer, ask your IT support.")
+    summary = phrase("The clinic’s server does not respond: {subject} ({detail}).")
+    data_safety = phrase("All sessions are safe. Your last entries may not be saved.")
+    remedy = phrase("Continue measuring. If the server still does not respond, ask your IT support.")
 
 
 class NameUnsuited(CarpusFault, code="C-704"):
-    summary = phrase("This cannot be used as a name: {detail} ({subject}).")
+    summary = phrase("This text cannot be used as a name: {detail} ({subject}).")
     data_safety = _UNCHANGED
     remedy = phrase("Type the name instead of pasting it.")
 
@@ -310,11 +310,11 @@ class DriverFailed(CarpusFault, code="C-203"):
 
     summary = phrase("The camera driver has stopped: {subject} ({detail}).")
     data_safety = _STORED
-    remedy = phrase("Unplug the camera, plug it in again and start once more.")
+    remedy = phrase("Unplug the camera, plug it in again, then restart the measurement.")
 
 
 class CameraUnknown(CarpusFault, code="C-204"):
-    summary = phrase("There is no camera type called {subject} ({detail}).")
+    summary = phrase("There is no camera type with the name {subject} ({detail}).")
     data_safety = _NOTHING_YET
     remedy = phrase("Choose the camera in the settings.")
     support = phrase("On the command line, set it with --camera.")
@@ -342,7 +342,7 @@ class CameraPermission(CarpusFault, code="C-207"):
 class CameraUnsuited(CarpusFault, code="C-208"):
     summary = phrase("This camera does not deliver the images that Carpus needs: {subject} ({detail}).")
     data_safety = _STORED
-    remedy = phrase("Use a camera with colour and depth, such as the Xtion.")
+    remedy = phrase("Use a camera with colour and depth, such as the Asus Xtion.")
 
 
 class CameraLost(CarpusFault, code="C-209"):
@@ -364,9 +364,9 @@ class CameraMismatch(CameraLost, code="C-210"):
 class CameraReturned(Notice, code="C-211"):
     """``detail`` is how long the camera was away."""
 
-    summary = phrase("The camera is back: {subject} (away for {detail}).")
+    summary = phrase("The camera is connected again: {subject} (disconnected for {detail}).")
     data_safety = _STORED
-    remedy = phrase("Continue. The gap is marked in the session.")
+    remedy = phrase("Continue measuring. The gap is marked in the session.")
 
 
 class ExposureUnstable(Notice, code="C-212"):
@@ -396,7 +396,7 @@ class DamagedFramesExcluded(Notice, code="C-111"):
 
 
 class FramesEnlarged(Notice, code="C-112"):
-    summary = phrase("Some frames are smaller and were enlarged: {subject} ({detail}).")
+    summary = phrase("Some images are smaller than the others and were enlarged: {subject} ({detail}).")
     data_safety = _GOES_ON
     remedy = phrase("Use the same size for colour and depth next time.")
 
@@ -404,19 +404,21 @@ class FramesEnlarged(Notice, code="C-112"):
 class IntrinsicsAssumed(Notice, code="C-213"):
     """``detail`` is used in place of a calibration."""
 
-    summary = phrase("No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).")
+    summary = phrase(
+        "There is no camera calibration for {subject}, so lengths may be wrong by several per cent ({detail})."
+    )
     data_safety = _GOES_ON
     remedy = phrase("Calibrate the camera in the settings.")
-    support = phrase("Or put the camera’s camera_info.yaml next to the recording.")
+    support = phrase("You can also put the file camera_info.yaml of the camera next to the recording.")
 
 
 class UnitAssumed(Notice, code="C-113"):
     """The values make sense in another unit than that of the format."""
 
-    summary = phrase("The recording has unusual units and is read that way: {subject} ({detail}).")
+    summary = phrase("The recording has unusual units, and Carpus converts them: {subject} ({detail}).")
     data_safety = _RECORDING_UNCHANGED
-    remedy = phrase("If this is wrong, correct the list of frames or state the unit of depth.")
-    support = phrase("camera_info.yaml states it as depth_unit_m.")
+    remedy = phrase("If the units are wrong, correct the list of frames or state the unit of depth.")
+    support = phrase("The unit of depth is depth_unit_m in camera_info.yaml.")
 
 
 class RepeatedTimesExcluded(Notice, code="C-114"):
@@ -428,11 +430,9 @@ class RepeatedTimesExcluded(Notice, code="C-114"):
 
 
 class RegistrationAssumed(Notice, code="C-115"):
-    summary = phrase(
-        "It is not stated whether depth and colour are aligned in {subject}; Carpus assumes that they are."
-    )
+    summary = phrase("{subject} does not state whether depth and colour are aligned. Carpus assumes that they are.")
     data_safety = _GOES_ON
-    remedy = phrase("State it in the camera file.")
+    remedy = phrase("State in the camera file whether depth and colour are aligned.")
     support = phrase("Write “registered: true” or “registered: false” into camera_info.yaml.")
 
 
@@ -457,7 +457,7 @@ class SmoothingFailed(CarpusFault, code="C-505"):
 
     summary = phrase("Smoothing of this session failed: {subject} ({detail}).")
     data_safety = phrase("The live measurement is saved.")
-    remedy = phrase("You can use the session as it is.")
+    remedy = phrase("You can use the live values of this session.")
     support = phrase("“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.")
 
 
@@ -465,7 +465,7 @@ class MarkersNotCorrectable(CarpusFault, code="C-506"):
     summary = phrase("The markers of this session cannot be corrected: {subject} ({detail}).")
     data_safety = phrase("The session was not changed.")
     remedy = phrase("Exclude the repetitions that are wrong, or record again.")
-    support = phrase("Or analyse the recording again with “carpus track”.")
+    support = phrase("You can also track the recording again with “carpus track”.")
 
 
 class ReanalysisFailed(CarpusFault, code="C-507"):
@@ -476,12 +476,14 @@ class ReanalysisFailed(CarpusFault, code="C-507"):
 
 class PatientListUnreadable(CarpusFault, code="C-705"):
     summary = phrase("The patient list cannot be opened: {subject} ({detail}).")
-    data_safety = phrase("Session files are safe. Keep this file: it is the only one with the names and notes.")
+    data_safety = phrase(
+        "Session files are safe. Do not delete the patient list: no other file has the names and notes."
+    )
     remedy = phrase("Restart Carpus. If that does not help, ask your IT support.")
 
 
 class PatientListVersionUnknown(PatientListUnreadable, code="C-706"):
-    summary = phrase("The patient list was made by another version of Carpus: {subject} ({detail}).")
+    summary = phrase("The patient list was created by another version of Carpus: {subject} ({detail}).")
     data_safety = _UNCHANGED
     remedy = phrase("Update Carpus on this computer.")
 
@@ -489,7 +491,7 @@ class PatientListVersionUnknown(PatientListUnreadable, code="C-706"):
 class PatientListBusy(PatientListUnreadable, code="C-707"):
     summary = phrase("The patient list is open in another window of Carpus or another program: {subject} ({detail}).")
     data_safety = _UNCHANGED
-    remedy = phrase("Close it there, then try again.")
+    remedy = phrase("Close the other window or program, then try again.")
 
 
 class PatientListReadOnly(PatientListUnreadable, code="C-708"):
@@ -505,7 +507,7 @@ class PatientListDamaged(PatientListUnreadable, code="C-709"):
 
     summary = phrase("The patient list is damaged: {subject} ({detail}).")
     data_safety = PatientListUnreadable.data_safety
-    remedy = phrase("Restart Carpus: it keeps what can still be read. If names are missing, restore a backup.")
+    remedy = phrase("Restart Carpus to recover what can still be read. If names are missing, restore a backup.")
 
 
 class PatientListRebuilt(Notice, code="C-710"):
@@ -536,20 +538,22 @@ class SessionFilesIgnored(Notice, code="C-508"):
     """``subject`` names some of the files, ``detail`` counts them."""
 
     summary = phrase("{detail} in the session folder cannot be read and were ignored: {subject}.")
-    data_safety = phrase("They were not changed. All other sessions are safe.")
-    remedy = phrase("Restore them from a backup.")
+    data_safety = phrase("These files were not changed. All other sessions are safe.")
+    remedy = phrase("Restore these files from a backup.")
 
 
 class SessionSpooled(Notice, code="C-406"):
     """``subject`` is where the session waits."""
 
     summary = phrase("The session folder is not available ({detail}). The session is saved in {subject}.")
-    data_safety = phrase("It is safe on this computer.")
-    remedy = phrase("Continue. When the disk or network is back, Carpus moves the session automatically.")
+    data_safety = phrase("The session is safe on this computer.")
+    remedy = phrase(
+        "Continue measuring. When the disk or network is available again, Carpus moves the session automatically."
+    )
 
 
 class RecordingTooShort(Notice, code="C-117"):
-    summary = phrase("A recording ended before its first second was saved: {subject}. There is nothing to recover.")
+    summary = phrase("A recording ended before its first second was saved, so it cannot be recovered: {subject}.")
     data_safety = phrase("Everything recorded before is safe.")
     remedy = phrase("Record this exercise again.")
 
@@ -557,12 +561,12 @@ class RecordingTooShort(Notice, code="C-117"):
 class SpooledSessionErased(Notice, code="C-713"):
     summary = phrase("A recording still on this computer belonged to a deleted patient and was deleted as well.")
     data_safety = phrase("Nothing else was changed.")
-    remedy = phrase("No action is needed.")
+    remedy = phrase("You do not need to do anything.")
 
 
 class SpooledSessionMoved(Notice, code="C-407"):
-    summary = phrase("A session that was kept on this computer is now in the session folder: {subject}.")
-    data_safety = phrase("It is complete.")
+    summary = phrase("A session that was saved on this computer is now in the session folder: {subject}.")
+    data_safety = phrase("The session is complete.")
     remedy = phrase("Review it like any other session.")
 
 
@@ -573,7 +577,7 @@ class FolderMissing(CarpusFault, code="C-408"):
 
 
 class SessionShareEmpty(FolderMissing, code="C-409"):
-    summary = phrase("The session folder contains nothing from Carpus: {subject}.")
+    summary = phrase("The session folder contains no Carpus data: {subject}.")
     data_safety = phrase("Nothing was changed. New recordings are kept on this computer.")
     remedy = phrase("Check that the network share is connected.")
 
@@ -582,7 +586,7 @@ class DataFolderMissing(CarpusFault, code="C-410"):
     summary = phrase("The folder contains no Carpus data: {subject}.")
     data_safety = _UNCHANGED
     remedy = phrase("Choose the folder that contains the patients.")
-    support = phrase("“carpus doctor” shows which one it is.")
+    support = phrase("“carpus doctor” shows which data folder is used.")
 
 
 class DataFolderChanged(CarpusFault, code="C-411"):
@@ -602,7 +606,7 @@ class FolderInUse(CarpusFault, code="C-412"):
 class SessionsMissing(CarpusFault, code="C-509"):
     summary = phrase("There is no session in {subject}.")
     data_safety = _UNCHANGED
-    remedy = phrase("Measure one, or choose the folder that contains the sessions.")
+    remedy = phrase("Measure a session, or choose the folder that contains the sessions.")
 
 
 class PatientUnknown(CarpusFault, code="C-714"):
@@ -612,7 +616,7 @@ class PatientUnknown(CarpusFault, code="C-714"):
 
 
 class PseudonymTaken(CarpusFault, code="C-715"):
-    summary = phrase("The name {subject} belongs to another patient.")
+    summary = phrase("The pseudonym {subject} belongs to another patient.")
     data_safety = _UNCHANGED
     remedy = phrase("Choose another name.")
 
@@ -621,15 +625,15 @@ class ErasureUnfinished(CarpusFault, code="C-716"):
     """``subject`` names one of ``detail`` files."""
 
     summary = phrase("Not all files could be deleted yet ({detail} left, such as {subject}).")
-    data_safety = phrase("They are no longer listed. Carpus tries again at each start.")
-    remedy = phrase("Close other programs that use them, then restart Carpus.")
+    data_safety = phrase("The files are no longer listed. Carpus tries to delete them again at each start.")
+    remedy = phrase("Close other programs that use these files, then restart Carpus.")
 
 
 class ErasureBlockedByLink(CarpusFault, code="C-717"):
     """``subject`` is the link."""
 
     summary = phrase("Nothing was deleted: {subject} is a link to another place.")
-    data_safety = phrase("Everything is as it was.")
+    data_safety = phrase("Nothing was changed.")
     remedy = phrase("Ask your IT support to replace the link with its target, then delete again.")
 
 
@@ -642,7 +646,7 @@ class BackupFolderUnsuited(CarpusFault, code="C-801"):
 class BackupIncomplete(CarpusFault, code="C-802"):
     """``subject`` is one of ``detail`` files that cannot be read."""
 
-    summary = phrase("The backup is incomplete: {subject} is missing or cannot be read; {detail} in all.")
+    summary = phrase("The backup is incomplete: {subject} is missing or cannot be read ({detail} in total).")
     data_safety = phrase("All other files are in the backup.")
     remedy = phrase("Reconnect the session folder or its disk, then back up again.")
 
@@ -650,11 +654,9 @@ class BackupIncomplete(CarpusFault, code="C-802"):
 class BackupMismatch(CarpusFault, code="C-803"):
     """``subject`` begins the name of the content."""
 
-    summary = phrase(
-        "The backup’s verification failed: a file read back differs from the original ({subject}, {detail})."
-    )
+    summary = phrase("The backup failed verification: a file in it differs from the original ({subject}, {detail}).")
     data_safety = phrase("The data on this computer are intact.")
-    remedy = phrase("Back up to another disk now, and replace this one.")
+    remedy = phrase("Back up to another disk now, and replace the faulty disk.")
 
 
 class BackupUnreadable(CarpusFault, code="C-804"):
@@ -673,28 +675,28 @@ class BoardNotVisible(CarpusFault, code="C-214"):
     summary = phrase("The calibration board is not visible: {subject} ({detail}).")
     data_safety = _CALIBRATION
     remedy = phrase("Hold the whole printed board in the camera image, in good light.")
-    support = phrase("“carpus calibrate-camera --board” prints it.")
+    support = phrase("“carpus calibrate-camera --board” writes the board as a PDF to print.")
 
 
 class BoardViewsTooSimilar(CarpusFault, code="C-215"):
     summary = phrase("The images of the board are too few or too similar: {subject} ({detail}).")
     data_safety = _CALIBRATION
-    remedy = phrase("Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.")
+    remedy = phrase("Show the board in all parts of the image, tilted to all four sides, near and far. Hold it still.")
 
 
 class BoardUnfit(CarpusFault, code="C-216"):
     summary = phrase("The corners do not fit a flat board: {subject} ({detail}).")
     data_safety = _CALIBRATION
-    remedy = phrase("Glue the board to something stiff and flat, light it well, and hold it still.")
+    remedy = phrase("Glue the board onto something stiff and flat, use good light, and hold the board still.")
 
 
 class CardNotVisible(CarpusFault, code="C-217"):
     summary = phrase("The check card is not visible: {subject} ({detail}).")
     data_safety = _UNCHANGED
-    remedy = phrase("Lay it flat under the camera, fully in view, about 60 cm away, in good light.")
+    remedy = phrase("Lay the card flat under the camera, fully in view, about 60 cm away, in good light.")
 
 
 class PinUncheckable(CarpusFault, code="C-901"):
     summary = phrase("The PIN cannot be checked: {subject} is missing on this computer ({detail}).")
-    data_safety = phrase("Nothing is lost. Everything stays hidden.")
+    data_safety = phrase("Nothing is lost. Names, images and values stay hidden.")
     remedy = phrase("Ask your IT support to reinstall Carpus.")

@@ -384,7 +384,10 @@ class SessionFileScanner:
                 else:
                     del now_seen[path]
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
-            faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is not text")) for one in nameless]
+            faults += [
+                SessionUnreadable(ascii(Path(one).name), phrase("damaged: a name in it is not text"))
+                for one in nameless
+            ]
         unfinished = {path for path in before if path.endswith(".part") and (self._folder / path).exists()}
         gone = [path for path in before if path not in there and path not in unfinished]
         taken = self._update_list(found, known, there.keys(), now_seen)

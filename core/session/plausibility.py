@@ -110,7 +110,7 @@ def check_calibration(path: Path, calibration: Calibration) -> None:
         good = bool(np.isfinite(spread).all() and np.abs(spread).max() <= MAX_COVARIANCE_M2)
         good = good and float(np.linalg.eigvalsh(spread).min()) >= -COVARIANCE_TOLERANCE_M2
     if not good:
-        raise SessionUnreadable(path, phrase("damaged: its calibration does not describe a hand"))
+        raise SessionUnreadable(path, phrase("damaged: the calibration in it does not describe a hand"))
 
 
 def check_detections(detections: Detections) -> None:

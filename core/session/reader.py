@@ -112,14 +112,14 @@ class ReadingProcess:
                 size = 0
             if not link.poll(TIMEOUT_S + size / BYTES_PER_S):
                 self._end()
-                raise SessionUnreadable(path, phrase("damaged: reading does not finish"))
+                raise SessionUnreadable(path, phrase("damaged: Carpus could not finish reading it"))
             try:
                 count, packed = int(link.recv_bytes()), link.recv_bytes()
                 buffers = [link.recv_bytes() for _ in range(count)]
                 outcome, value = _AnswerUnpickler(io.BytesIO(packed), buffers=buffers).load()
             except (EOFError, OSError):
                 self._end()
-                raise SessionUnreadable(path, phrase("damaged: not readable to the end")) from None
+                raise SessionUnreadable(path, phrase("damaged: the end cannot be read")) from None
             except Exception as cause:
                 self._end()
                 raise SessionUnreadable(path, phrase("damaged: its content is implausible")) from cause

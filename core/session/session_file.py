@@ -185,7 +185,7 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     except ContentError as cause:
         raise SessionUnreadable(path, cause.args[0]) from cause
     except MemoryError as cause:
-        raise SessionUnreadable(path, phrase("damaged: needs more memory than any session")) from cause
+        raise SessionUnreadable(path, phrase("damaged: reading it needs too much memory")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
         # The library's own message helps developers only.
         log.info("reading %s: %s", path, cause)

@@ -844,10 +844,6 @@
         <translation>Anklicken: {marker}</translation>
     </message>
     <message>
-        <source>In the middle of the back of the wrist, in the small dimple.</source>
-        <translation>Mitten auf dem Handgelenkrücken, im kleinen Grübchen.</translation>
-    </message>
-    <message>
         <source>At the base of the thumb, just distal to the anatomical snuffbox.</source>
         <translation>An der Daumenbasis, knapp distal der Tabatière.</translation>
     </message>
@@ -2584,10 +2580,6 @@
         <translation>{difference}: über der MDC ({limit})</translation>
     </message>
     <message>
-        <source>Another blue spot fits the {markers} better.</source>
-        <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
-    </message>
-    <message>
         <source>Another blue spot is close to the {markers}: it may be the marker.</source>
         <translation>{markers}: Dicht daneben liegt eine andere blaue Stelle, die der Marker sein könnte.</translation>
     </message>
@@ -2640,16 +2632,8 @@
         <translation>Klicken Sie für jede der beiden Bezeichnungen den eigenen Marker an.</translation>
     </message>
     <message>
-        <source>Click it again in its centre, and keep the hand still.</source>
-        <translation>Klicken Sie ihn neu in seiner Mitte an, und halten Sie die Hand ruhig.</translation>
-    </message>
-    <message>
         <source>Click nearer to the marker, or check the light.</source>
         <translation>Klicken Sie näher am Marker, oder prüfen Sie das Licht.</translation>
-    </message>
-    <message>
-        <source>Click the {markers} again in its centre, or cover the other spot.</source>
-        <translation>Klicken Sie noch einmal in die Mitte ({markers}), oder decken Sie die andere Stelle ab.</translation>
     </message>
     <message>
         <source>Clock</source>
@@ -2662,10 +2646,6 @@
     <message>
         <source>Close the other program, then try again.</source>
         <translation>Schließen Sie das andere Programm, und versuchen Sie es dann noch einmal.</translation>
-    </message>
-    <message>
-        <source>Cover the spot with the question mark, or give it its label.</source>
-        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr die Bezeichnung.</translation>
     </message>
     <message>
         <source>Data folder</source>
@@ -2746,10 +2726,6 @@
     <message>
         <source>No blue marker at the {markers}.</source>
         <translation>Kein blauer Marker: {markers}.</translation>
-    </message>
-    <message>
-        <source>No hand has this shape: the {markers} does not fit the other markers.</source>
-        <translation>Keine Hand hat diese Form: Ein Marker passt nicht zu den anderen ({markers}).</translation>
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
@@ -2884,10 +2860,6 @@
         <translation>RealSense-Treiber</translation>
     </message>
     <message>
-        <source>The camera is back: {subject} (away for {detail}).</source>
-        <translation>Die Kamera ist wieder da: {subject} (war {detail} weg).</translation>
-    </message>
-    <message>
         <source>Camera out of tolerance: {what} (limits: {most_angle}°, {most_length} mm, all lengths {most_share} %).</source>
         <translation>Kamera außerhalb der Toleranz: {what} (Grenzen: {most_angle}°, {most_length} mm, alle Längen {most_share} %).</translation>
     </message>
@@ -2912,20 +2884,8 @@
         <translation>Die Hand ist {value} m von der Kamera entfernt ({limit} m oder mehr ist gut).</translation>
     </message>
     <message>
-        <source>The hand measures {value} mm (the limit is {limit} mm).</source>
-        <translation>Die Hand misst {value} mm ({limit} mm ist die Grenze).</translation>
-    </message>
-    <message>
-        <source>The hand measures {value} mm. Last time it measured {limit} mm.</source>
-        <translation>Die Hand misst {value} mm, letztes Mal waren es {limit} mm.</translation>
-    </message>
-    <message>
         <source>The hand moved in the first half second.</source>
         <translation>Die Hand bewegte sich in der ersten halben Sekunde.</translation>
-    </message>
-    <message>
-        <source>The hand was still for {value} frames only ({limit} or more are good).</source>
-        <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
     </message>
     <message>
         <source>The {markers} marker is {value} mm from its expected position (up to {limit} mm is good).</source>
@@ -2934,14 +2894,6 @@
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
         <translation>Die Marker dieser Sitzung können nicht korrigiert werden: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The name {subject} belongs to another patient.</source>
-        <translation>Der Name {subject} gehört einem anderen Patienten.</translation>
-    </message>
-    <message>
-        <source>The labels look shifted: the marker clicked as {first} is the {second}.</source>
-        <translation>Die Bezeichnungen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
     </message>
     <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
@@ -2964,10 +2916,6 @@
         <translation>Die Referenz kann nicht gelesen werden: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The scheduler at {subject} does not answer ({detail}).</source>
-        <translation>Der Scheduler unter {subject} antwortet nicht ({detail}).</translation>
-    </message>
-    <message>
         <source>The {markers} does not lie on the line of its finger.</source>
         <translation>{markers}: Der Marker liegt nicht auf der Linie seines Fingers.</translation>
     </message>
@@ -2978,10 +2926,6 @@
     <message>
         <source>There is one more blue spot on the hand than there are labels.</source>
         <translation>Auf der Hand ist eine blaue Stelle mehr, als es Bezeichnungen gibt.</translation>
-    </message>
-    <message>
-        <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
-        <translation>Bei dieser Kamera sind Tiefe und Farbe nicht deckungsgleich. Die Tiefe wird daher neben den Markern gemessen.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
@@ -3008,24 +2952,8 @@
         <translation>Drehen Sie den Handrücken zur Kamera.</translation>
     </message>
     <message>
-        <source>Unplug the camera, plug it in again and start once more.</source>
-        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an und starten Sie neu.</translation>
-    </message>
-    <message>
-        <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
-        <translation>Verwenden Sie C3D, TRC, MOT, eine CSV-Tabelle mit ihrer Spaltenzuordnung oder eine Sitzung.</translation>
-    </message>
-    <message>
-        <source>Use a camera with colour and depth, such as the Xtion.</source>
-        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, zum Beispiel die Xtion.</translation>
-    </message>
-    <message>
         <source>Use another USB port, without a hub or other cameras. Close other demanding programs.</source>
         <translation>Nehmen Sie einen anderen USB-Anschluss, ohne Hub und ohne andere Kameras. Schließen Sie andere rechenintensive Programme.</translation>
-    </message>
-    <message>
-        <source>Use wrist6 or hand21.</source>
-        <translation>Verwenden Sie wrist6 oder hand21.</translation>
     </message>
     <message>
         <source>Wedge: cut along the lines, fold back along the dashes</source>
@@ -3048,16 +2976,8 @@
         <translation>ein Marker liegt außerhalb des Bildes</translation>
     </message>
     <message>
-        <source>a name that is not text</source>
-        <translation>ein Name, der kein Text ist</translation>
-    </message>
-    <message>
         <source>a text with an invalid character, in {file}</source>
         <translation>ein Text mit einem ungültigen Zeichen, in {file}</translation>
-    </message>
-    <message>
-        <source>all six markers in {count} of {looked} frames</source>
-        <translation>alle sechs Marker in {count} von {looked} Bildern</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
@@ -3066,10 +2986,6 @@
     <message>
         <source>another computer is sending its data</source>
         <translation>ein anderer Computer sendet gerade seine Daten</translation>
-    </message>
-    <message>
-        <source>{count} bytes after its end</source>
-        <translation>{count} Bytes nach dem Ende</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
@@ -3126,14 +3042,6 @@
     <message>
         <source>damaged: depth sensor, {cause}</source>
         <translation>beschädigt: Tiefensensor, {cause}</translation>
-    </message>
-    <message>
-        <source>damaged: not readable to the end</source>
-        <translation>beschädigt: nicht bis zum Ende lesbar</translation>
-    </message>
-    <message>
-        <source>damaged: reading does not finish</source>
-        <translation>beschädigt: das Lesen endet nicht</translation>
     </message>
     <message>
         <source>damaged: its content is implausible</source>
@@ -3560,10 +3468,6 @@
         <translation>die Datei ändert sich, während sie gelesen wird</translation>
     </message>
     <message>
-        <source>the focal length is known only to within {share} %</source>
-        <translation>die Brennweite ist nur auf {share} % genau bekannt</translation>
-    </message>
-    <message>
         <source>the session contains no frames</source>
         <translation>die Sitzung enthält kein Bild</translation>
     </message>
@@ -3578,10 +3482,6 @@
     <message>
         <source>file not found</source>
         <translation>Datei nicht gefunden</translation>
-    </message>
-    <message>
-        <source>there is no such setting, in {file}</source>
-        <translation>diese Einstellung gibt es nicht (in {file})</translation>
     </message>
     <message>
         <source>to CSV, JSON, C3D, TRC, MOT and BIDS</source>
@@ -3728,10 +3628,6 @@
         <translation>{lost} von {count} Bildern</translation>
     </message>
     <message>
-        <source>{markers} look swapped.</source>
-        <translation>{markers} scheinen vertauscht.</translation>
-    </message>
-    <message>
         <source>{name} changes within the file</source>
         <translation>{name} ändert sich innerhalb der Datei</translation>
     </message>
@@ -3866,10 +3762,6 @@
     <message>
         <source>It is not known whether the disk of the data folder is encrypted.</source>
         <translation>Es ist nicht bekannt, ob der Datenträger des Datenordners verschlüsselt ist.</translation>
-    </message>
-    <message>
-        <source>damaged: its calibration does not describe a hand</source>
-        <translation>beschädigt: Die Kalibrierung beschreibt keine Hand</translation>
     </message>
     <message>
         <source>Labels are correct</source>
@@ -4396,10 +4288,6 @@
         <translation>Das Handgelenk nach oben, dann nach unten beugen, so weit es angenehm ist. Der Unterarm bleibt still.</translation>
     </message>
     <message>
-        <source>Check the path.</source>
-        <translation>Prüfen Sie den Pfad.</translation>
-    </message>
-    <message>
         <source>File not found: {subject}.</source>
         <translation>Datei nicht gefunden: {subject}.</translation>
     </message>
@@ -4476,14 +4364,6 @@
         <translation>Ein Bild der Aufnahme ist beschädigt: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>A recording ended before its first second was saved: {subject}. There is nothing to recover.</source>
-        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
-    </message>
-    <message>
-        <source>A session that was kept on this computer is now in the session folder: {subject}.</source>
-        <translation>Eine Sitzung, die auf diesem Computer lag, ist jetzt im Sitzungsordner: {subject}.</translation>
-    </message>
-    <message>
         <source>A setting is invalid: {subject} ({detail}).</source>
         <translation>Eine Einstellung ist ungültig: {subject} ({detail}).</translation>
     </message>
@@ -4502,10 +4382,6 @@
     <message>
         <source>All sessions are safe. Names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
         <translation>Alle Sitzungen sind sicher. Namen, Notizen und Kommentare können fehlen. Die beschädigte Liste bleibt als {subject} erhalten.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe. What was being entered may not be saved.</source>
-        <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
     </message>
     <message>
         <source>Another program is using the camera ({detail}).</source>
@@ -4532,10 +4408,6 @@
         <translation>Bitten Sie Ihre IT-Betreuung, Carpus neu zu installieren.</translation>
     </message>
     <message>
-        <source>Back up to another disk now, and replace this one.</source>
-        <translation>Sichern Sie die Daten jetzt auf einem anderen Datenträger, und ersetzen Sie diesen.</translation>
-    </message>
-    <message>
         <source>Backup</source>
         <translation>Datensicherung</translation>
     </message>
@@ -4552,20 +4424,8 @@
         <translation>Carpus wurde nicht vollständig installiert: Ein kompilierter Teil fehlt ({subject}).</translation>
     </message>
     <message>
-        <source>Check that it is the same movement, and state which column or marker is which.</source>
-        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und geben Sie an, wofür jede Spalte und jeder Marker steht.</translation>
-    </message>
-    <message>
-        <source>Check that the folder exists and that you may write there, or choose another folder.</source>
-        <translation>Prüfen Sie, ob der Ordner existiert und ob Sie dort schreiben dürfen, oder wählen Sie einen anderen.</translation>
-    </message>
-    <message>
         <source>Check that the network share is connected.</source>
         <translation>Prüfen Sie, ob die Netzwerkfreigabe verbunden ist.</translation>
-    </message>
-    <message>
-        <source>Check the address.</source>
-        <translation>Prüfen Sie die Adresse.</translation>
     </message>
     <message>
         <source>Check the list, or restore a backup.</source>
@@ -4612,14 +4472,6 @@
         <translation>Schließen Sie Carpus auf anderen Computern. Wenn das nicht hilft, bitten Sie Ihre IT-Betreuung um Schreibzugriff.</translation>
     </message>
     <message>
-        <source>Close it there, then try again.</source>
-        <translation>Schließen Sie sie dort, und versuchen Sie es dann noch einmal.</translation>
-    </message>
-    <message>
-        <source>Close other programs that use them, then restart Carpus.</source>
-        <translation>Schließen Sie andere Programme, die sie benutzen, und starten Sie Carpus neu.</translation>
-    </message>
-    <message>
         <source>Compare the log with a backup, and tell your data-protection officer.</source>
         <translation>Vergleichen Sie das Protokoll mit einer Sicherung, und informieren Sie die für den Datenschutz zuständige Person.</translation>
     </message>
@@ -4628,20 +4480,8 @@
         <translation>Vergleich</translation>
     </message>
     <message>
-        <source>Continue. The gap is marked in the session.</source>
-        <translation>Fahren Sie fort. Die Lücke ist in der Sitzung markiert.</translation>
-    </message>
-    <message>
-        <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
-        <translation>Fahren Sie fort. Wenn Datenträger oder Netz wieder verfügbar sind, verschiebt Carpus die Sitzung automatisch.</translation>
-    </message>
-    <message>
         <source>Copy the recording again from its source.</source>
         <translation>Kopieren Sie die Aufnahme noch einmal von ihrer Quelle.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again, or correct its list of frames.</source>
-        <translation>Kopieren Sie die Aufnahme noch einmal, oder korrigieren Sie ihre Bildliste.</translation>
     </message>
     <message>
         <source>Correct the setting, or remove it to use the default.</source>
@@ -4656,20 +4496,12 @@
         <translation>Tiefe und Farbe sind in {subject} nicht deckungsgleich, daher sind die Tiefen ungenauer.</translation>
     </message>
     <message>
-        <source>Everything is as it was.</source>
-        <translation>Alles ist, wie es war.</translation>
-    </message>
-    <message>
         <source>Everything recorded before is safe.</source>
         <translation>Alles vorher Aufgenommene ist sicher.</translation>
     </message>
     <message>
         <source>Everything recorded so far is saved on this computer.</source>
         <translation>Alles bisher Aufgenommene ist auf diesem Computer gespeichert.</translation>
-    </message>
-    <message>
-        <source>Everything saved before is safe. What was being written may be missing.</source>
-        <translation>Alles vorher Gespeicherte ist sicher. Was gerade geschrieben wurde, kann fehlen.</translation>
     </message>
     <message>
         <source>Everything saved until then is safe.</source>
@@ -4688,20 +4520,8 @@
         <translation>Bilder mit wiederholter Zeit wurden ausgeschlossen: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Glue the board to something stiff and flat, light it well, and hold it still.</source>
-        <translation>Kleben Sie die Tafel auf etwas Steifes und Ebenes, beleuchten Sie sie gut, und halten Sie sie ruhig.</translation>
-    </message>
-    <message>
         <source>Hold the whole printed board in the camera image, in good light.</source>
         <translation>Halten Sie die ganze gedruckte Tafel ins Kamerabild, bei gutem Licht.</translation>
-    </message>
-    <message>
-        <source>If another name is better, change it in the patient’s entry.</source>
-        <translation>Wenn ein anderer Name besser ist, ändern Sie ihn beim Patienten.</translation>
-    </message>
-    <message>
-        <source>If it was copied, copy it again. Otherwise restore it from a backup.</source>
-        <translation>Wenn sie kopiert wurde, kopieren Sie sie noch einmal. Sonst stellen Sie sie aus einer Sicherung wieder her.</translation>
     </message>
     <message>
         <source>If patients are missing here, choose the data folder in the settings.</source>
@@ -4716,32 +4536,8 @@
         <translation>Wenn es viele sind, nehmen Sie neu auf.</translation>
     </message>
     <message>
-        <source>If this is wrong, correct the list of frames or state the unit of depth.</source>
-        <translation>Wenn das falsch ist, korrigieren Sie die Bildliste oder geben Sie die Einheit der Tiefe an.</translation>
-    </message>
-    <message>
         <source>Installation</source>
         <translation>Installation</translation>
-    </message>
-    <message>
-        <source>It can be opened, but its values may have been altered.</source>
-        <translation>Sie kann geöffnet werden, aber ihre Werte können verändert sein.</translation>
-    </message>
-    <message>
-        <source>It is complete.</source>
-        <translation>Sie ist vollständig.</translation>
-    </message>
-    <message>
-        <source>It is not stated whether depth and colour are aligned in {subject}; Carpus assumes that they are.</source>
-        <translation>Es ist nicht angegeben, ob Tiefe und Farbe in {subject} deckungsgleich sind; Carpus nimmt es an.</translation>
-    </message>
-    <message>
-        <source>It is safe on this computer.</source>
-        <translation>Sie ist auf diesem Computer sicher.</translation>
-    </message>
-    <message>
-        <source>Its SHA-256 checksum does not match.</source>
-        <translation>Ihre SHA-256-Prüfsumme stimmt nicht.</translation>
     </message>
     <message>
         <source>Keep the light constant while you measure.</source>
@@ -4750,10 +4546,6 @@
     <message>
         <source>Measure at least 10 people twice within 14 days, and replace the markers each time.</source>
         <translation>Messen Sie mindestens 10 Personen zweimal innerhalb von 14 Tagen, jedes Mal mit neu gesetzten Markern.</translation>
-    </message>
-    <message>
-        <source>Measure one, or choose the folder that contains the sessions.</source>
-        <translation>Messen Sie eine, oder wählen Sie den Ordner mit den Sitzungen.</translation>
     </message>
     <message>
         <source>Move the board further away</source>
@@ -4766,14 +4558,6 @@
     <message>
         <source>Move the hand a little. Keep sunlight and reflections off the markers.</source>
         <translation>Bewegen Sie die Hand ein wenig. Halten Sie Sonne und Spiegelungen von den Markern fern.</translation>
-    </message>
-    <message>
-        <source>No action is needed.</source>
-        <translation>Sie müssen nichts tun.</translation>
-    </message>
-    <message>
-        <source>No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).</source>
-        <translation>Zu {subject} wurde keine Kamerakalibrierung gefunden: Längen können um mehrere Prozent abweichen ({detail}).</translation>
     </message>
     <message>
         <source>No camera was found ({detail}).</source>
@@ -4792,12 +4576,8 @@
         <translation>Es wurde noch nichts aufgenommen.</translation>
     </message>
     <message>
-        <source>Nothing is lost. Everything stays hidden.</source>
-        <translation>Es ist nichts verloren. Alles bleibt verborgen.</translation>
-    </message>
-    <message>
         <source>Nothing was changed.</source>
-        <translation>Es wurde nichts geändert.</translation>
+        <translation>Alles ist, wie es war.</translation>
     </message>
     <message>
         <source>Nothing was changed. New recordings are kept on this computer.</source>
@@ -4806,10 +4586,6 @@
     <message>
         <source>Nothing was deleted: {subject} is a link to another place.</source>
         <translation>Es wurde nichts gelöscht: {subject} ist eine Verknüpfung an einen anderen Ort.</translation>
-    </message>
-    <message>
-        <source>Open it again and enter your change once more.</source>
-        <translation>Öffnen Sie ihn noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
     </message>
     <message>
         <source>Patients</source>
@@ -4856,56 +4632,24 @@
         <translation>Starten Sie Carpus neu. Wenn das nicht hilft, fragen Sie Ihre IT-Betreuung.</translation>
     </message>
     <message>
-        <source>Restart Carpus: it keeps what can still be read. If names are missing, restore a backup.</source>
-        <translation>Starten Sie Carpus neu: Es behält, was noch lesbar ist. Wenn Namen fehlen, stellen Sie eine Sicherung wieder her.</translation>
-    </message>
-    <message>
         <source>Restore a backup, or enter the names again.</source>
         <translation>Stellen Sie eine Sicherung wieder her, oder geben Sie die Namen neu ein.</translation>
-    </message>
-    <message>
-        <source>Restore them from a backup.</source>
-        <translation>Stellen Sie sie aus einer Sicherung wieder her.</translation>
     </message>
     <message>
         <source>Review it like any other session.</source>
         <translation>Sehen Sie sie wie jede andere Sitzung durch.</translation>
     </message>
     <message>
-        <source>Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.</source>
-        <translation>Zeigen Sie die Tafel überall im Bild, nach allen vier Seiten geneigt, nah und fern. Halten Sie sie ruhig.</translation>
-    </message>
-    <message>
         <source>Smoothing of this session failed: {subject} ({detail}).</source>
         <translation>Die Glättung dieser Sitzung ist fehlgeschlagen: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Some frames are smaller and were enlarged: {subject} ({detail}).</source>
-        <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Someone else changed this record, so your change was not saved.</source>
         <translation>Jemand anderes hat diesen Eintrag geändert, deshalb wurde Ihre Änderung nicht gespeichert.</translation>
     </message>
     <message>
-        <source>State it in the camera file.</source>
-        <translation>Geben Sie es in der Kameradatei an.</translation>
-    </message>
-    <message>
-        <source>That file was not changed.</source>
-        <translation>Diese Datei wurde nicht verändert.</translation>
-    </message>
-    <message>
         <source>The backup cannot be read: {subject} ({detail}).</source>
         <translation>Die Sicherung kann nicht gelesen werden: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The backup is incomplete: {subject} is missing or cannot be read; {detail} in all.</source>
-        <translation>Die Sicherung ist unvollständig: {subject} fehlt oder kann nicht gelesen werden; insgesamt {detail}.</translation>
-    </message>
-    <message>
-        <source>The backup’s verification failed: a file read back differs from the original ({subject}, {detail}).</source>
-        <translation>Die Prüfung der Sicherung ist fehlgeschlagen: Eine zurückgelesene Datei weicht vom Original ab ({subject}, {detail}).</translation>
     </message>
     <message>
         <source>The calibration board is not visible: {subject} ({detail}).</source>
@@ -4946,10 +4690,6 @@
     <message>
         <source>The clicked points do not form a hand ({subject}).</source>
         <translation>Die angeklickten Punkte ergeben keine Hand ({subject}).</translation>
-    </message>
-    <message>
-        <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
-        <translation>Der Server der Einrichtung antwortet nicht: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The data on this computer are intact.</source>
@@ -5020,10 +4760,6 @@
         <translation>Die Patientenliste war beschädigt. Sie wurde aus den Sitzungen und allem, was lesbar war, neu erstellt ({detail}).</translation>
     </message>
     <message>
-        <source>The patient list was made by another version of Carpus: {subject} ({detail}).</source>
-        <translation>Die Patientenliste stammt von einer anderen Version von Carpus: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The patient list was missing and was rebuilt from the sessions: {subject}.</source>
         <translation>Die Patientenliste fehlte und wurde aus den Sitzungen neu erstellt: {subject}.</translation>
     </message>
@@ -5038,14 +4774,6 @@
     <message>
         <source>The recording contains no frames: {subject} ({detail}).</source>
         <translation>Die Aufnahme enthält keine Bilder: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The reference has nothing to compare: {subject} ({detail}).</source>
-        <translation>Die Referenz enthält nichts Vergleichbares: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The session folder contains nothing from Carpus: {subject}.</source>
-        <translation>Der Sitzungsordner enthält nichts von Carpus: {subject}.</translation>
     </message>
     <message>
         <source>The session folder is not available ({detail}). The session is saved in {subject}.</source>
@@ -5064,32 +4792,12 @@
         <translation>In {subject} gibt es keine Sicherung.</translation>
     </message>
     <message>
-        <source>There is no camera type called {subject} ({detail}).</source>
-        <translation>Es gibt keinen Kameratyp namens {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is no marker set called {subject} ({detail}).</source>
-        <translation>Es gibt keinen Markersatz namens {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>There is no patient called {subject} ({detail}).</source>
         <translation>Es gibt keinen Patienten namens {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>They are no longer listed. Carpus tries again at each start.</source>
-        <translation>Sie erscheinen in keiner Liste mehr. Carpus versucht es bei jedem Start noch einmal.</translation>
-    </message>
-    <message>
-        <source>They were not changed. All other sessions are safe.</source>
-        <translation>Sie wurden nicht verändert. Alle anderen Sitzungen sind sicher.</translation>
-    </message>
-    <message>
         <source>This camera does not deliver the images that Carpus needs: {subject} ({detail}).</source>
         <translation>Diese Kamera liefert nicht die Bilder, die Carpus braucht: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>This cannot be used as a name: {detail} ({subject}).</source>
-        <translation>Das kann kein Name sein: {detail} ({subject}).</translation>
     </message>
     <message>
         <source>This session cannot be opened: {subject} ({detail}).</source>
@@ -5108,10 +4816,6 @@
         <translation>Schalten Sie beim nächsten Mal die Ausrichtung von Tiefe und Farbe in den Kameraeinstellungen ein.</translation>
     </message>
     <message>
-        <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
-        <translation>Zwei Patienten hatten den Namen {subject}: Beim zweiten steht jetzt ({detail}) dahinter.</translation>
-    </message>
-    <message>
         <source>Type the name instead of pasting it.</source>
         <translation>Tippen Sie den Namen ein, statt ihn einzufügen.</translation>
     </message>
@@ -5128,10 +4832,6 @@
         <translation>Verwenden Sie eine Aufnahme mit Farbe und Tiefe.</translation>
     </message>
     <message>
-        <source>Use the copy in a backup.</source>
-        <translation>Verwenden Sie die Datei aus einer Sicherung.</translation>
-    </message>
-    <message>
         <source>Use the same size for colour and depth next time.</source>
         <translation>Verwenden Sie beim nächsten Mal für Farbe und Tiefe dieselbe Größe.</translation>
     </message>
@@ -5140,48 +4840,16 @@
         <translation>Verwenden Sie das schon offene Fenster, oder wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
-        <source>Wait until it has finished, or choose another folder.</source>
-        <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
-    </message>
-    <message>
-        <source>Wait until its recording has ended, or restart Carpus: it completes the session.</source>
-        <translation>Warten Sie, bis die Aufnahme beendet ist, oder starten Sie Carpus neu: Es schließt die Sitzung ab.</translation>
-    </message>
-    <message>
-        <source>What was recorded is safe.</source>
-        <translation>Was aufgenommen wurde, ist sicher.</translation>
-    </message>
-    <message>
-        <source>Without --scheduler this computer does the work.</source>
-        <translation>Ohne --scheduler rechnet dieser Computer.</translation>
-    </message>
-    <message>
         <source>Write “registered: true” or “registered: false” into camera_info.yaml.</source>
         <translation>Schreiben Sie „registered: true“ oder „registered: false“ in camera_info.yaml.</translation>
-    </message>
-    <message>
-        <source>You can use the session as it is.</source>
-        <translation>Sie können die Sitzung so verwenden.</translation>
     </message>
     <message>
         <source>You do not have permission to open the camera ({detail}).</source>
         <translation>Sie haben keine Berechtigung, die Kamera zu öffnen ({detail}).</translation>
     </message>
     <message>
-        <source>camera_info.yaml states it as depth_unit_m.</source>
-        <translation>In camera_info.yaml steht sie als depth_unit_m.</translation>
-    </message>
-    <message>
         <source>it contains more than one record</source>
         <translation>enthält mehr als einen Datensatz</translation>
-    </message>
-    <message>
-        <source>“carpus calibrate-camera --board” prints it.</source>
-        <translation>„carpus calibrate-camera --board“ druckt sie.</translation>
-    </message>
-    <message>
-        <source>“carpus recover” completes it too.</source>
-        <translation>Auch „carpus recover“ schließt sie ab.</translation>
     </message>
     <message>
         <source>“carpus track --leave-out-damaged” continues without it.</source>
@@ -5472,14 +5140,6 @@
         <translation>Markersatz {subject}</translation>
     </message>
     <message>
-        <source>not TOML: endlessly nested tables</source>
-        <translation>kein TOML: endlos verschachtelte Tabellen</translation>
-    </message>
-    <message>
-        <source>on, corrected by Carpus</source>
-        <translation>an, von Carpus korrigiert</translation>
-    </message>
-    <message>
         <source>points from {format}</source>
         <translation>Punkte aus {format}</translation>
     </message>
@@ -5506,10 +5166,6 @@
     <message>
         <source>Neutral</source>
         <translation>Neutral</translation>
-    </message>
-    <message>
-        <source>Or analyse the recording again with “carpus track”.</source>
-        <translation>Oder analysieren Sie die Aufnahme mit „carpus track“ neu.</translation>
     </message>
     <message>
         <source>Ab-/adduction</source>
@@ -5544,14 +5200,6 @@
         <translation>Schließen Sie die erwartete Kamera an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
     </message>
     <message>
-        <source>Continue measuring. If the server still does not answer, ask your IT support.</source>
-        <translation>Messen Sie weiter. Wenn der Server weiter nicht antwortet, fragen Sie Ihre IT-Betreuung.</translation>
-    </message>
-    <message>
-        <source>Lay it flat under the camera, fully in view, about 60 cm away, in good light.</source>
-        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
-    </message>
-    <message>
         <source>Plug the camera in again. Measurement and recording then continue automatically.</source>
         <translation>Schließen Sie die Kamera wieder an. Messung und Aufnahme laufen dann automatisch weiter.</translation>
     </message>
@@ -5580,10 +5228,6 @@
         <translation>„carpus doctor“ zeigt, was fehlt und wie es installiert wird.</translation>
     </message>
     <message>
-        <source>“carpus doctor” shows which one it is.</source>
-        <translation>„carpus doctor“ zeigt, welcher es ist.</translation>
-    </message>
-    <message>
         <source>{detail} in the session folder cannot be read and were ignored: {subject}.</source>
         <translation>{detail} im Sitzungsordner können nicht gelesen werden und wurden ignoriert: {subject}.</translation>
     </message>
@@ -5592,32 +5236,16 @@
         <translation>{name} ist angeschlossen, aber der Treiber sieht sie nicht</translation>
     </message>
     <message>
-        <source>Or put the camera’s camera_info.yaml next to the recording.</source>
-        <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
-    </message>
-    <message>
         <source>Remove files that do not belong to Carpus, or choose another disk.</source>
         <translation>Entfernen Sie Dateien, die nicht zu Carpus gehören, oder wählen Sie einen anderen Datenträger.</translation>
-    </message>
-    <message>
-        <source>The MDC values stay as they are.</source>
-        <translation>Die MDC-Werte bleiben, wie sie sind.</translation>
     </message>
     <message>
         <source>The previous folder was {detail}. Nothing was moved.</source>
         <translation>Der bisherige Ordner war {detail}. Es wurde nichts verschoben.</translation>
     </message>
     <message>
-        <source>The recording has unusual units and is read that way: {subject} ({detail}).</source>
-        <translation>Die Aufnahme hat ungewöhnliche Einheiten und wird so gelesen: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>Reinstall it.</source>
         <translation>Installieren Sie es neu.</translation>
-    </message>
-    <message>
-        <source>damaged: needs more memory than any session</source>
-        <translation>beschädigt: braucht mehr Speicher als jede Sitzung</translation>
     </message>
     <message>
         <source>no fonts of Carpus</source>
@@ -5738,14 +5366,6 @@
     <message>
         <source>On the command line, set it with --camera.</source>
         <translation>In der Befehlszeile wird sie mit --camera angegeben.</translation>
-    </message>
-    <message>
-        <source>Session files are safe. Keep this file: it is the only one with the names and notes.</source>
-        <translation>Die Sitzungsdateien sind sicher. Behalten Sie diese Datei: Namen und Notizen stehen nur hier.</translation>
-    </message>
-    <message>
-        <source>These sessions are not a test–retest study: {subject} ({detail}).</source>
-        <translation>Diese Sitzungen sind keine Test-Retest-Studie: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>This line must be 100 mm long. If it is not,</source>
@@ -6428,6 +6048,374 @@ cm</translation>
     <message>
         <source>to 54 years</source>
         <translation>bis 54 Jahre</translation>
+    </message>
+    <message>
+        <source>In the middle of the back of the wrist, in the small hollow.</source>
+        <translation>Mitten auf dem Handgelenkrücken, im kleinen Grübchen.</translation>
+    </message>
+    <message>
+        <source>Another blue spot fits the {markers} better than the clicked one.</source>
+        <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
+    </message>
+    <message>
+        <source>Click the centre of the marker again, and keep the hand still.</source>
+        <translation>Klicken Sie ihn neu in seiner Mitte an, und halten Sie die Hand ruhig.</translation>
+    </message>
+    <message>
+        <source>Click the centre of the {markers} again, or cover the other spot.</source>
+        <translation>Klicken Sie noch einmal in die Mitte ({markers}), oder decken Sie die andere Stelle ab.</translation>
+    </message>
+    <message>
+        <source>Cover the spot with the question mark, or give it the correct label.</source>
+        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr die Bezeichnung.</translation>
+    </message>
+    <message>
+        <source>The {markers} does not fit the other markers: no hand has this shape.</source>
+        <translation>Keine Hand hat diese Form: Ein Marker passt nicht zu den anderen ({markers}).</translation>
+    </message>
+    <message>
+        <source>The camera is connected again: {subject} (disconnected for {detail}).</source>
+        <translation>Die Kamera ist wieder da: {subject} (war {detail} weg).</translation>
+    </message>
+    <message>
+        <source>The hand length is {value} mm (the limit is {limit} mm).</source>
+        <translation>Die Hand misst {value} mm ({limit} mm ist die Grenze).</translation>
+    </message>
+    <message>
+        <source>The hand length is {value} mm. Last time it was {limit} mm.</source>
+        <translation>Die Hand misst {value} mm, letztes Mal waren es {limit} mm.</translation>
+    </message>
+    <message>
+        <source>The hand was still for only {value} frames ({limit} or more are good).</source>
+        <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
+    </message>
+    <message>
+        <source>The pseudonym {subject} belongs to another patient.</source>
+        <translation>Der Name {subject} gehört einem anderen Patienten.</translation>
+    </message>
+    <message>
+        <source>The labels seem to be shifted: the marker clicked as {first} is probably the {second}.</source>
+        <translation>Die Bezeichnungen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
+    </message>
+    <message>
+        <source>The Dask scheduler at {subject} does not respond ({detail}).</source>
+        <translation>Der Scheduler unter {subject} antwortet nicht ({detail}).</translation>
+    </message>
+    <message>
+        <source>This camera does not align depth with colour, so depths at the markers will be wrong.</source>
+        <translation>Bei dieser Kamera sind Tiefe und Farbe nicht deckungsgleich. Die Tiefe wird daher neben den Markern gemessen.</translation>
+    </message>
+    <message>
+        <source>Unplug the camera, plug it in again, then restart the measurement.</source>
+        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an und starten Sie neu.</translation>
+    </message>
+    <message>
+        <source>Use a C3D, TRC or MOT file, a CSV table with its column map, or a session.</source>
+        <translation>Verwenden Sie C3D, TRC, MOT, eine CSV-Tabelle mit ihrer Spaltenzuordnung oder eine Sitzung.</translation>
+    </message>
+    <message>
+        <source>Use a camera with colour and depth, such as the Asus Xtion.</source>
+        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, zum Beispiel die Xtion.</translation>
+    </message>
+    <message>
+        <source>Use the marker set wrist6 or hand21.</source>
+        <translation>Verwenden Sie wrist6 oder hand21.</translation>
+    </message>
+    <message>
+        <source>damaged: a name in it is not text</source>
+        <translation>ein Name, der kein Text ist</translation>
+    </message>
+    <message>
+        <source>all six markers visible in {count} of {looked} frames</source>
+        <translation>alle sechs Marker in {count} von {looked} Bildern</translation>
+    </message>
+    <message>
+        <source>{count} bytes after the end of the recording</source>
+        <translation>{count} Bytes nach dem Ende</translation>
+    </message>
+    <message>
+        <source>damaged: the end cannot be read</source>
+        <translation>beschädigt: nicht bis zum Ende lesbar</translation>
+    </message>
+    <message>
+        <source>damaged: Carpus could not finish reading it</source>
+        <translation>beschädigt: das Lesen endet nicht</translation>
+    </message>
+    <message>
+        <source>the focal length is uncertain by {share} %</source>
+        <translation>die Brennweite ist nur auf {share} % genau bekannt</translation>
+    </message>
+    <message>
+        <source>this setting does not exist (file {file})</source>
+        <translation>diese Einstellung gibt es nicht (in {file})</translation>
+    </message>
+    <message>
+        <source>The labels of {markers} seem to be swapped.</source>
+        <translation>{markers} scheinen vertauscht.</translation>
+    </message>
+    <message>
+        <source>damaged: the calibration in it does not describe a hand</source>
+        <translation>beschädigt: Die Kalibrierung beschreibt keine Hand</translation>
+    </message>
+    <message>
+        <source>A recording ended before its first second was saved, so it cannot be recovered: {subject}.</source>
+        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
+    </message>
+    <message>
+        <source>A session that was saved on this computer is now in the session folder: {subject}.</source>
+        <translation>Eine Sitzung, die auf diesem Computer lag, ist jetzt im Sitzungsordner: {subject}.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. Your last entries may not be saved.</source>
+        <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
+    </message>
+    <message>
+        <source>Back up to another disk now, and replace the faulty disk.</source>
+        <translation>Sichern Sie die Daten jetzt auf einem anderen Datenträger, und ersetzen Sie diesen.</translation>
+    </message>
+    <message>
+        <source>Check that the reference shows the same movement, and state which column or marker is which.</source>
+        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und geben Sie an, wofür jede Spalte und jeder Marker steht.</translation>
+    </message>
+    <message>
+        <source>Check that the folder exists and that you are allowed to write to it, or choose another folder.</source>
+        <translation>Prüfen Sie, ob der Ordner existiert und ob Sie dort schreiben dürfen, oder wählen Sie einen anderen.</translation>
+    </message>
+    <message>
+        <source>Check the address of the scheduler.</source>
+        <translation>Prüfen Sie die Adresse.</translation>
+    </message>
+    <message>
+        <source>Close the other window or program, then try again.</source>
+        <translation>Schließen Sie sie dort, und versuchen Sie es dann noch einmal.</translation>
+    </message>
+    <message>
+        <source>Close other programs that use these files, then restart Carpus.</source>
+        <translation>Schließen Sie andere Programme, die sie benutzen, und starten Sie Carpus neu.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. The gap is marked in the session.</source>
+        <translation>Fahren Sie fort. Die Lücke ist in der Sitzung markiert.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. When the disk or network is available again, Carpus moves the session automatically.</source>
+        <translation>Fahren Sie fort. Wenn Datenträger oder Netz wieder verfügbar sind, verschiebt Carpus die Sitzung automatisch.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from its source, or correct its list of frames.</source>
+        <translation>Kopieren Sie die Aufnahme noch einmal, oder korrigieren Sie ihre Bildliste.</translation>
+    </message>
+    <message>
+        <source>Everything saved before is safe. The data that Carpus was writing may be missing.</source>
+        <translation>Alles vorher Gespeicherte ist sicher. Was gerade geschrieben wurde, kann fehlen.</translation>
+    </message>
+    <message>
+        <source>Glue the board onto something stiff and flat, use good light, and hold the board still.</source>
+        <translation>Kleben Sie die Tafel auf etwas Steifes und Ebenes, beleuchten Sie sie gut, und halten Sie sie ruhig.</translation>
+    </message>
+    <message>
+        <source>To use another pseudonym, edit the patient.</source>
+        <translation>Wenn ein anderer Name besser ist, ändern Sie ihn beim Patienten.</translation>
+    </message>
+    <message>
+        <source>If you copied the file, copy it again. Otherwise restore it from a backup.</source>
+        <translation>Wenn sie kopiert wurde, kopieren Sie sie noch einmal. Sonst stellen Sie sie aus einer Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>If the units are wrong, correct the list of frames or state the unit of depth.</source>
+        <translation>Wenn das falsch ist, korrigieren Sie die Bildliste oder geben Sie die Einheit der Tiefe an.</translation>
+    </message>
+    <message>
+        <source>The session can be opened, but its values may have been altered.</source>
+        <translation>Sie kann geöffnet werden, aber ihre Werte können verändert sein.</translation>
+    </message>
+    <message>
+        <source>The session is complete.</source>
+        <translation>Sie ist vollständig.</translation>
+    </message>
+    <message>
+        <source>{subject} does not state whether depth and colour are aligned. Carpus assumes that they are.</source>
+        <translation>Es ist nicht angegeben, ob Tiefe und Farbe in {subject} deckungsgleich sind; Carpus nimmt es an.</translation>
+    </message>
+    <message>
+        <source>The session is safe on this computer.</source>
+        <translation>Sie ist auf diesem Computer sicher.</translation>
+    </message>
+    <message>
+        <source>The SHA-256 checksum of the file does not match.</source>
+        <translation>Ihre SHA-256-Prüfsumme stimmt nicht.</translation>
+    </message>
+    <message>
+        <source>Measure a session, or choose the folder that contains the sessions.</source>
+        <translation>Messen Sie eine, oder wählen Sie den Ordner mit den Sitzungen.</translation>
+    </message>
+    <message>
+        <source>You do not need to do anything.</source>
+        <translation>Sie müssen nichts tun.</translation>
+    </message>
+    <message>
+        <source>There is no camera calibration for {subject}, so lengths may be wrong by several per cent ({detail}).</source>
+        <translation>Zu {subject} wurde keine Kamerakalibrierung gefunden: Längen können um mehrere Prozent abweichen ({detail}).</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Names, images and values stay hidden.</source>
+        <translation>Es ist nichts verloren. Alles bleibt verborgen.</translation>
+    </message>
+    <message>
+        <source>Open the record again and enter your change once more.</source>
+        <translation>Öffnen Sie ihn noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
+    </message>
+    <message>
+        <source>Restart Carpus to recover what can still be read. If names are missing, restore a backup.</source>
+        <translation>Starten Sie Carpus neu: Es behält, was noch lesbar ist. Wenn Namen fehlen, stellen Sie eine Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>Restore these files from a backup.</source>
+        <translation>Stellen Sie sie aus einer Sicherung wieder her.</translation>
+    </message>
+    <message>
+        <source>Show the board in all parts of the image, tilted to all four sides, near and far. Hold it still.</source>
+        <translation>Zeigen Sie die Tafel überall im Bild, nach allen vier Seiten geneigt, nah und fern. Halten Sie sie ruhig.</translation>
+    </message>
+    <message>
+        <source>Some images are smaller than the others and were enlarged: {subject} ({detail}).</source>
+        <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>State in the camera file whether depth and colour are aligned.</source>
+        <translation>Geben Sie es in der Kameradatei an.</translation>
+    </message>
+    <message>
+        <source>The backup is incomplete: {subject} is missing or cannot be read ({detail} in total).</source>
+        <translation>Die Sicherung ist unvollständig: {subject} fehlt oder kann nicht gelesen werden; insgesamt {detail}.</translation>
+    </message>
+    <message>
+        <source>The backup failed verification: a file in it differs from the original ({subject}, {detail}).</source>
+        <translation>Die Prüfung der Sicherung ist fehlgeschlagen: Eine zurückgelesene Datei weicht vom Original ab ({subject}, {detail}).</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not respond: {subject} ({detail}).</source>
+        <translation>Der Server der Einrichtung antwortet nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was created by another version of Carpus: {subject} ({detail}).</source>
+        <translation>Die Patientenliste stammt von einer anderen Version von Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The reference contains nothing that can be compared: {subject} ({detail}).</source>
+        <translation>Die Referenz enthält nichts Vergleichbares: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session folder contains no Carpus data: {subject}.</source>
+        <translation>Der Sitzungsordner enthält nichts von Carpus: {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no camera type with the name {subject} ({detail}).</source>
+        <translation>Es gibt keinen Kameratyp namens {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no marker set with the name {subject} ({detail}).</source>
+        <translation>Es gibt keinen Markersatz namens {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The files are no longer listed. Carpus tries to delete them again at each start.</source>
+        <translation>Sie erscheinen in keiner Liste mehr. Carpus versucht es bei jedem Start noch einmal.</translation>
+    </message>
+    <message>
+        <source>These files were not changed. All other sessions are safe.</source>
+        <translation>Sie wurden nicht verändert. Alle anderen Sitzungen sind sicher.</translation>
+    </message>
+    <message>
+        <source>This text cannot be used as a name: {detail} ({subject}).</source>
+        <translation>Das kann kein Name sein: {detail} ({subject}).</translation>
+    </message>
+    <message>
+        <source>Two patients had the pseudonym {subject}. The second one now has ({detail}) after it.</source>
+        <translation>Zwei Patienten hatten das Pseudonym {subject}. Beim zweiten steht jetzt ({detail}) dahinter.</translation>
+    </message>
+    <message>
+        <source>Restore the session from a backup.</source>
+        <translation>Verwenden Sie die Datei aus einer Sicherung.</translation>
+    </message>
+    <message>
+        <source>Wait until the other program has finished, or choose another folder.</source>
+        <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
+    </message>
+    <message>
+        <source>Wait until the recording has ended, or restart Carpus to complete the session.</source>
+        <translation>Warten Sie, bis die Aufnahme beendet ist, oder starten Sie Carpus neu: Es schließt die Sitzung ab.</translation>
+    </message>
+    <message>
+        <source>Everything recorded is safe.</source>
+        <translation>Was aufgenommen wurde, ist sicher.</translation>
+    </message>
+    <message>
+        <source>Without the option --scheduler, this computer tracks the recordings.</source>
+        <translation>Ohne --scheduler rechnet dieser Computer.</translation>
+    </message>
+    <message>
+        <source>You can use the live values of this session.</source>
+        <translation>Sie können die Sitzung so verwenden.</translation>
+    </message>
+    <message>
+        <source>The unit of depth is depth_unit_m in camera_info.yaml.</source>
+        <translation>In camera_info.yaml steht sie als depth_unit_m.</translation>
+    </message>
+    <message>
+        <source>“carpus calibrate-camera --board” writes the board as a PDF to print.</source>
+        <translation>„carpus calibrate-camera --board“ druckt sie.</translation>
+    </message>
+    <message>
+        <source>“carpus recover” also completes the session.</source>
+        <translation>Auch „carpus recover“ schließt sie ab.</translation>
+    </message>
+    <message>
+        <source>not a valid TOML file: too many nested tables</source>
+        <translation>kein TOML: endlos verschachtelte Tabellen</translation>
+    </message>
+    <message>
+        <source>on; Carpus corrects it</source>
+        <translation>an, von Carpus korrigiert</translation>
+    </message>
+    <message>
+        <source>You can also track the recording again with “carpus track”.</source>
+        <translation>Oder analysieren Sie die Aufnahme mit „carpus track“ neu.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. If the server still does not respond, ask your IT support.</source>
+        <translation>Messen Sie weiter. Wenn der Server weiter nicht antwortet, fragen Sie Ihre IT-Betreuung.</translation>
+    </message>
+    <message>
+        <source>Lay the card flat under the camera, fully in view, about 60 cm away, in good light.</source>
+        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows which data folder is used.</source>
+        <translation>„carpus doctor“ zeigt, welcher es ist.</translation>
+    </message>
+    <message>
+        <source>You can also put the file camera_info.yaml of the camera next to the recording.</source>
+        <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
+    </message>
+    <message>
+        <source>The MDC values were not changed.</source>
+        <translation>Die MDC-Werte bleiben, wie sie sind.</translation>
+    </message>
+    <message>
+        <source>The recording has unusual units, and Carpus converts them: {subject} ({detail}).</source>
+        <translation>Die Aufnahme hat ungewöhnliche Einheiten und wird so gelesen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>damaged: reading it needs too much memory</source>
+        <translation>beschädigt: braucht mehr Speicher als jede Sitzung</translation>
+    </message>
+    <message>
+        <source>Session files are safe. Do not delete the patient list: no other file has the names and notes.</source>
+        <translation>Die Sitzungsdateien sind sicher. Behalten Sie diese Datei: Namen und Notizen stehen nur hier.</translation>
+    </message>
+    <message>
+        <source>These sessions cannot be used as a test–retest study: {subject} ({detail}).</source>
+        <translation>Diese Sitzungen sind keine Test-Retest-Studie: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>
@@ -10773,10 +10761,6 @@ von oben</translation>
         <translation>{width} × {height} für Fenster</translation>
     </message>
     <message>
-        <source>Choose more pixels, or a smaller scale, in the display settings: {width} × {height} or more.</source>
-        <translation>Wählen Sie in den Anzeigeeinstellungen mehr Pixel oder eine kleinere Skalierung: {width} × {height} oder mehr.</translation>
-    </message>
-    <message>
         <source>Install Carpus again: part of it is missing or damaged.</source>
         <translation>Installieren Sie Carpus neu: Ein Teil fehlt oder ist beschädigt.</translation>
     </message>
@@ -10805,7 +10789,11 @@ von oben</translation>
         <translation>Kamerarechte</translation>
     </message>
     <message>
-        <source>the fonts of Carpus cannot be used</source>
+        <source>In the display settings, choose a higher resolution or a smaller scale: {width} × {height} or more.</source>
+        <translation>Wählen Sie in den Anzeigeeinstellungen mehr Pixel oder eine kleinere Skalierung: {width} × {height} oder mehr.</translation>
+    </message>
+    <message>
+        <source>the fonts of Carpus cannot be loaded</source>
         <translation>die Schriften von Carpus sind nicht nutzbar</translation>
     </message>
 </context>

@@ -844,10 +844,6 @@
         <translation>Fare clic su: {marker}</translation>
     </message>
     <message>
-        <source>In the middle of the back of the wrist, in the small dimple.</source>
-        <translation>Al centro del dorso del polso, nella piccola fossetta.</translation>
-    </message>
-    <message>
         <source>At the base of the thumb, just distal to the anatomical snuffbox.</source>
         <translation>Alla base del pollice, subito distalmente alla tabacchiera anatomica.</translation>
     </message>
@@ -2584,10 +2580,6 @@
         <translation>{difference}: oltre l’MDC ({limit})</translation>
     </message>
     <message>
-        <source>Another blue spot fits the {markers} better.</source>
-        <translation>Un altro punto blu corrisponde meglio a: {markers}.</translation>
-    </message>
-    <message>
         <source>Another blue spot is close to the {markers}: it may be the marker.</source>
         <translation>Un altro punto blu è molto vicino a: {markers}. Potrebbe essere il marcatore.</translation>
     </message>
@@ -2644,16 +2636,8 @@
         <translation>Fare di nuovo clic, per ciascuna delle due etichette, sul proprio marcatore.</translation>
     </message>
     <message>
-        <source>Click it again in its centre, and keep the hand still.</source>
-        <translation>Fare di nuovo clic al suo centro e tenere ferma la mano.</translation>
-    </message>
-    <message>
         <source>Click nearer to the marker, or check the light.</source>
         <translation>Fare clic più vicino al marcatore, o controllare la luce.</translation>
-    </message>
-    <message>
-        <source>Click the {markers} again in its centre, or cover the other spot.</source>
-        <translation>Fare di nuovo clic al centro ({markers}), o coprire l’altro punto.</translation>
     </message>
     <message>
         <source>Clock</source>
@@ -2666,10 +2650,6 @@
     <message>
         <source>Close the other program, then try again.</source>
         <translation>Chiudere l’altro programma, poi riprovare.</translation>
-    </message>
-    <message>
-        <source>Cover the spot with the question mark, or give it its label.</source>
-        <translation>Coprire il punto con il punto interrogativo, o dargli la sua etichetta.</translation>
     </message>
     <message>
         <source>Data folder</source>
@@ -2750,10 +2730,6 @@
     <message>
         <source>No blue marker at the {markers}.</source>
         <translation>Nessun marcatore blu in questo punto: {markers}.</translation>
-    </message>
-    <message>
-        <source>No hand has this shape: the {markers} does not fit the other markers.</source>
-        <translation>Nessuna mano ha questa forma: un marcatore non è compatibile con gli altri ({markers}).</translation>
     </message>
     <message>
         <source>Not all files could be deleted yet ({detail} left, such as {subject}).</source>
@@ -2884,10 +2860,6 @@
         <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
     </message>
     <message>
-        <source>The camera is back: {subject} (away for {detail}).</source>
-        <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
-    </message>
-    <message>
         <source>Camera out of tolerance: {what} (limits: {most_angle}°, {most_length} mm, all lengths {most_share} %).</source>
         <translation>Telecamera fuori tolleranza: {what} (limiti: {most_angle}°, {most_length} mm, tutte le lunghezze {most_share} %).</translation>
     </message>
@@ -2912,20 +2884,8 @@
         <translation>La mano è a {value} m dalla telecamera ({limit} m o più va bene).</translation>
     </message>
     <message>
-        <source>The hand measures {value} mm (the limit is {limit} mm).</source>
-        <translation>La mano misura {value} mm (il limite è {limit} mm).</translation>
-    </message>
-    <message>
-        <source>The hand measures {value} mm. Last time it measured {limit} mm.</source>
-        <translation>La mano misura {value} mm, l’ultima volta {limit} mm.</translation>
-    </message>
-    <message>
         <source>The hand moved in the first half second.</source>
         <translation>La mano si è mossa nel primo mezzo secondo.</translation>
-    </message>
-    <message>
-        <source>The hand was still for {value} frames only ({limit} or more are good).</source>
-        <translation>La mano è stata ferma solo per {value} fotogrammi ({limit} o più vanno bene).</translation>
     </message>
     <message>
         <source>The {markers} marker is {value} mm from its expected position (up to {limit} mm is good).</source>
@@ -2934,14 +2894,6 @@
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
         <translation>I marcatori di questa seduta non possono essere corretti: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The name {subject} belongs to another patient.</source>
-        <translation>Il nome {subject} appartiene a un altro paziente.</translation>
-    </message>
-    <message>
-        <source>The labels look shifted: the marker clicked as {first} is the {second}.</source>
-        <translation>Le etichette sembrano spostate: il marcatore indicato come {first} è in realtà {second}.</translation>
     </message>
     <message>
         <source>The recording cannot be read: {subject} ({detail}).</source>
@@ -2964,10 +2916,6 @@
         <translation>Il riferimento non può essere letto: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The scheduler at {subject} does not answer ({detail}).</source>
-        <translation>Lo scheduler all’indirizzo {subject} non risponde ({detail}).</translation>
-    </message>
-    <message>
         <source>The {markers} does not lie on the line of its finger.</source>
         <translation>Marcatore fuori dalla linea del suo dito: {markers}.</translation>
     </message>
@@ -2978,10 +2926,6 @@
     <message>
         <source>There is one more blue spot on the hand than there are labels.</source>
         <translation>Sulla mano c’è un punto blu in più rispetto alle etichette.</translation>
-    </message>
-    <message>
-        <source>This camera does not align depth with colour. Depths will be read next to the markers.</source>
-        <translation>Questa telecamera non allinea la profondità al colore. La profondità si misura quindi accanto ai marcatori.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
@@ -3008,24 +2952,8 @@
         <translation>Girare il dorso della mano verso la telecamera.</translation>
     </message>
     <message>
-        <source>Unplug the camera, plug it in again and start once more.</source>
-        <translation>Scollegare la telecamera, ricollegarla e ricominciare.</translation>
-    </message>
-    <message>
-        <source>Use C3D, TRC, MOT, a CSV table with its column map, or a session.</source>
-        <translation>Usare C3D, TRC, MOT, una tabella CSV con la mappa delle colonne, o una seduta.</translation>
-    </message>
-    <message>
-        <source>Use a camera with colour and depth, such as the Xtion.</source>
-        <translation>Usare una telecamera con colore e profondità, come la Xtion.</translation>
-    </message>
-    <message>
         <source>Use another USB port, without a hub or other cameras. Close other demanding programs.</source>
         <translation>Usare un’altra porta USB, senza hub e senza altre telecamere. Chiudere gli altri programmi pesanti.</translation>
-    </message>
-    <message>
-        <source>Use wrist6 or hand21.</source>
-        <translation>Usare wrist6 o hand21.</translation>
     </message>
     <message>
         <source>Wedge: cut along the lines, fold back along the dashes</source>
@@ -3048,16 +2976,8 @@
         <translation>un marcatore è fuori dall’immagine</translation>
     </message>
     <message>
-        <source>a name that is not text</source>
-        <translation>un nome che non è un testo</translation>
-    </message>
-    <message>
         <source>a text with an invalid character, in {file}</source>
         <translation>un testo con un carattere non valido, in {file}</translation>
-    </message>
-    <message>
-        <source>all six markers in {count} of {looked} frames</source>
-        <translation>tutti i sei marcatori in {count} fotogrammi su {looked}</translation>
     </message>
     <message>
         <source>an HDF5 file, but not a session</source>
@@ -3066,10 +2986,6 @@
     <message>
         <source>another computer is sending its data</source>
         <translation>un altro computer sta inviando i suoi dati</translation>
-    </message>
-    <message>
-        <source>{count} bytes after its end</source>
-        <translation>{count} byte dopo la fine</translation>
     </message>
     <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
@@ -3126,14 +3042,6 @@
     <message>
         <source>damaged: depth sensor, {cause}</source>
         <translation>danneggiato: sensore di profondità, {cause}</translation>
-    </message>
-    <message>
-        <source>damaged: not readable to the end</source>
-        <translation>danneggiato: non leggibile fino alla fine</translation>
-    </message>
-    <message>
-        <source>damaged: reading does not finish</source>
-        <translation>danneggiato: la lettura non termina</translation>
     </message>
     <message>
         <source>damaged: its content is implausible</source>
@@ -3560,10 +3468,6 @@
         <translation>il file cambia mentre viene letto</translation>
     </message>
     <message>
-        <source>the focal length is known only to within {share} %</source>
-        <translation>la distanza focale è nota solo entro il {share} %</translation>
-    </message>
-    <message>
         <source>the session contains no frames</source>
         <translation>la seduta non contiene fotogrammi</translation>
     </message>
@@ -3578,10 +3482,6 @@
     <message>
         <source>file not found</source>
         <translation>file non trovato</translation>
-    </message>
-    <message>
-        <source>there is no such setting, in {file}</source>
-        <translation>questa impostazione non esiste (in {file})</translation>
     </message>
     <message>
         <source>to CSV, JSON, C3D, TRC, MOT and BIDS</source>
@@ -3728,10 +3628,6 @@
         <translation>{lost} fotogrammi su {count}</translation>
     </message>
     <message>
-        <source>{markers} look swapped.</source>
-        <translation>Sembrano scambiati: {markers}.</translation>
-    </message>
-    <message>
         <source>{name} changes within the file</source>
         <translation>{name} cambia all’interno del file</translation>
     </message>
@@ -3866,10 +3762,6 @@
     <message>
         <source>It is not known whether the disk of the data folder is encrypted.</source>
         <translation>Non si sa se il disco della cartella dei dati sia cifrato.</translation>
-    </message>
-    <message>
-        <source>damaged: its calibration does not describe a hand</source>
-        <translation>danneggiata: la calibrazione non descrive una mano</translation>
     </message>
     <message>
         <source>Labels are correct</source>
@@ -4396,10 +4288,6 @@
         <translation>Piegare il polso in su, poi in giù, fin dove non dà fastidio. L’avambraccio resta fermo.</translation>
     </message>
     <message>
-        <source>Check the path.</source>
-        <translation>Controllare il percorso.</translation>
-    </message>
-    <message>
         <source>File not found: {subject}.</source>
         <translation>File non trovato: {subject}.</translation>
     </message>
@@ -4476,14 +4364,6 @@
         <translation>Un fotogramma della registrazione è danneggiato: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>A recording ended before its first second was saved: {subject}. There is nothing to recover.</source>
-        <translation>Una registrazione è terminata prima che il primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
-    </message>
-    <message>
-        <source>A session that was kept on this computer is now in the session folder: {subject}.</source>
-        <translation>Una seduta conservata su questo computer è ora nella cartella delle sedute: {subject}.</translation>
-    </message>
-    <message>
         <source>A setting is invalid: {subject} ({detail}).</source>
         <translation>Un’impostazione non è valida: {subject} ({detail}).</translation>
     </message>
@@ -4502,10 +4382,6 @@
     <message>
         <source>All sessions are safe. Names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
         <translation>Tutte le sedute sono al sicuro. Nomi, note e commenti possono mancare. L’elenco danneggiato è conservato come {subject}.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe. What was being entered may not be saved.</source>
-        <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere salvato.</translation>
     </message>
     <message>
         <source>Another program is using the camera ({detail}).</source>
@@ -4532,10 +4408,6 @@
         <translation>Chiedere al supporto informatico di reinstallare Carpus.</translation>
     </message>
     <message>
-        <source>Back up to another disk now, and replace this one.</source>
-        <translation>Eseguire subito una copia di sicurezza su un altro disco, e sostituire questo disco.</translation>
-    </message>
-    <message>
         <source>Backup</source>
         <translation>Copia di sicurezza</translation>
     </message>
@@ -4552,20 +4424,8 @@
         <translation>Carpus non è stato installato completamente: manca una parte compilata ({subject}).</translation>
     </message>
     <message>
-        <source>Check that it is the same movement, and state which column or marker is which.</source>
-        <translation>Controllare che sia lo stesso movimento, e indicare a che cosa corrisponde ogni colonna o marcatore.</translation>
-    </message>
-    <message>
-        <source>Check that the folder exists and that you may write there, or choose another folder.</source>
-        <translation>Controllare che la cartella esista e che vi si possa scrivere, o sceglierne un’altra.</translation>
-    </message>
-    <message>
         <source>Check that the network share is connected.</source>
         <translation>Controllare che la condivisione di rete sia collegata.</translation>
-    </message>
-    <message>
-        <source>Check the address.</source>
-        <translation>Controllare l’indirizzo.</translation>
     </message>
     <message>
         <source>Check the list, or restore a backup.</source>
@@ -4612,14 +4472,6 @@
         <translation>Chiudere Carpus sugli altri computer. Se non basta, chiedere al supporto informatico l’accesso in scrittura.</translation>
     </message>
     <message>
-        <source>Close it there, then try again.</source>
-        <translation>Chiuderlo lì, poi riprovare.</translation>
-    </message>
-    <message>
-        <source>Close other programs that use them, then restart Carpus.</source>
-        <translation>Chiudere gli altri programmi che li usano, poi riavviare Carpus.</translation>
-    </message>
-    <message>
         <source>Compare the log with a backup, and tell your data-protection officer.</source>
         <translation>Confrontare il registro con una copia di sicurezza, e informare il responsabile della protezione dei dati.</translation>
     </message>
@@ -4628,20 +4480,8 @@
         <translation>Confronto</translation>
     </message>
     <message>
-        <source>Continue. The gap is marked in the session.</source>
-        <translation>Continuare. La lacuna è indicata nella seduta.</translation>
-    </message>
-    <message>
-        <source>Continue. When the disk or network is back, Carpus moves the session automatically.</source>
-        <translation>Continuare. Quando il disco o la rete tornano disponibili, Carpus sposta la seduta automaticamente.</translation>
-    </message>
-    <message>
         <source>Copy the recording again from its source.</source>
         <translation>Copiare di nuovo la registrazione dall’origine.</translation>
-    </message>
-    <message>
-        <source>Copy the recording again, or correct its list of frames.</source>
-        <translation>Copiare di nuovo la registrazione, o correggere il suo elenco di fotogrammi.</translation>
     </message>
     <message>
         <source>Correct the setting, or remove it to use the default.</source>
@@ -4656,20 +4496,12 @@
         <translation>Profondità e colore non sono allineati in {subject}, quindi le profondità sono meno precise.</translation>
     </message>
     <message>
-        <source>Everything is as it was.</source>
-        <translation>Tutto è come prima.</translation>
-    </message>
-    <message>
         <source>Everything recorded before is safe.</source>
         <translation>Tutto ciò che è stato registrato prima è al sicuro.</translation>
     </message>
     <message>
         <source>Everything recorded so far is saved on this computer.</source>
         <translation>Tutto ciò che è stato registrato finora è salvato su questo computer.</translation>
-    </message>
-    <message>
-        <source>Everything saved before is safe. What was being written may be missing.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro. Ciò che si stava scrivendo può mancare.</translation>
     </message>
     <message>
         <source>Everything saved until then is safe.</source>
@@ -4688,20 +4520,8 @@
         <translation>I fotogrammi con un tempo ripetuto sono stati esclusi: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>Glue the board to something stiff and flat, light it well, and hold it still.</source>
-        <translation>Incollare la tavola su qualcosa di rigido e piano, illuminarla bene e tenerla ferma.</translation>
-    </message>
-    <message>
         <source>Hold the whole printed board in the camera image, in good light.</source>
         <translation>Tenere l’intera tavola stampata nell’immagine della telecamera, con buona luce.</translation>
-    </message>
-    <message>
-        <source>If another name is better, change it in the patient’s entry.</source>
-        <translation>Se un altro nome è migliore, cambiarlo nella scheda del paziente.</translation>
-    </message>
-    <message>
-        <source>If it was copied, copy it again. Otherwise restore it from a backup.</source>
-        <translation>Se è stata copiata, copiarla di nuovo. Altrimenti ripristinarla da una copia di sicurezza.</translation>
     </message>
     <message>
         <source>If patients are missing here, choose the data folder in the settings.</source>
@@ -4716,32 +4536,8 @@
         <translation>Se sono molti, registrare di nuovo.</translation>
     </message>
     <message>
-        <source>If this is wrong, correct the list of frames or state the unit of depth.</source>
-        <translation>Se non è così, correggere l’elenco dei fotogrammi o indicare l’unità della profondità.</translation>
-    </message>
-    <message>
         <source>Installation</source>
         <translation>Installazione</translation>
-    </message>
-    <message>
-        <source>It can be opened, but its values may have been altered.</source>
-        <translation>Può essere aperta, ma i suoi valori possono essere stati alterati.</translation>
-    </message>
-    <message>
-        <source>It is complete.</source>
-        <translation>È completa.</translation>
-    </message>
-    <message>
-        <source>It is not stated whether depth and colour are aligned in {subject}; Carpus assumes that they are.</source>
-        <translation>Non è indicato se profondità e colore siano allineati in {subject}; Carpus presume di sì.</translation>
-    </message>
-    <message>
-        <source>It is safe on this computer.</source>
-        <translation>È al sicuro su questo computer.</translation>
-    </message>
-    <message>
-        <source>Its SHA-256 checksum does not match.</source>
-        <translation>La somma di controllo SHA-256 non corrisponde.</translation>
     </message>
     <message>
         <source>Keep the light constant while you measure.</source>
@@ -4750,10 +4546,6 @@
     <message>
         <source>Measure at least 10 people twice within 14 days, and replace the markers each time.</source>
         <translation>Misurare almeno 10 persone due volte entro 14 giorni, riposizionando ogni volta i marcatori.</translation>
-    </message>
-    <message>
-        <source>Measure one, or choose the folder that contains the sessions.</source>
-        <translation>Misurarne una, o scegliere la cartella che contiene le sedute.</translation>
     </message>
     <message>
         <source>Move the board further away</source>
@@ -4766,14 +4558,6 @@
     <message>
         <source>Move the hand a little. Keep sunlight and reflections off the markers.</source>
         <translation>Spostare un poco la mano. Evitare sole e riflessi sui marcatori.</translation>
-    </message>
-    <message>
-        <source>No action is needed.</source>
-        <translation>Non occorre fare nulla.</translation>
-    </message>
-    <message>
-        <source>No camera calibration was found with {subject}: lengths may be several per cent off ({detail}).</source>
-        <translation>Con {subject} non è stata trovata una calibrazione della telecamera: le lunghezze possono scostarsi di alcuni punti percentuali ({detail}).</translation>
     </message>
     <message>
         <source>No camera was found ({detail}).</source>
@@ -4792,12 +4576,8 @@
         <translation>Non è stato ancora registrato nulla.</translation>
     </message>
     <message>
-        <source>Nothing is lost. Everything stays hidden.</source>
-        <translation>Non è andato perso nulla. Tutto resta nascosto.</translation>
-    </message>
-    <message>
         <source>Nothing was changed.</source>
-        <translation>Non è stato modificato nulla.</translation>
+        <translation>Tutto è come prima.</translation>
     </message>
     <message>
         <source>Nothing was changed. New recordings are kept on this computer.</source>
@@ -4806,10 +4586,6 @@
     <message>
         <source>Nothing was deleted: {subject} is a link to another place.</source>
         <translation>Non è stato eliminato nulla: {subject} è un collegamento a un’altra posizione.</translation>
-    </message>
-    <message>
-        <source>Open it again and enter your change once more.</source>
-        <translation>Riaprirla e inserire di nuovo la modifica.</translation>
     </message>
     <message>
         <source>Patients</source>
@@ -4856,56 +4632,24 @@
         <translation>Riavviare Carpus. Se non basta, chiedere al supporto informatico.</translation>
     </message>
     <message>
-        <source>Restart Carpus: it keeps what can still be read. If names are missing, restore a backup.</source>
-        <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se mancano nomi, ripristinare una copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>Restore a backup, or enter the names again.</source>
         <translation>Ripristinare una copia di sicurezza, o inserire di nuovo i nomi.</translation>
-    </message>
-    <message>
-        <source>Restore them from a backup.</source>
-        <translation>Ripristinarli da una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Review it like any other session.</source>
         <translation>Rivederla come ogni altra seduta.</translation>
     </message>
     <message>
-        <source>Show the board everywhere in the image, tilted to all four sides, near and far. Hold it still.</source>
-        <translation>Mostrare la tavola in ogni parte dell’immagine, inclinata sui quattro lati, vicina e lontana. Tenerla ferma.</translation>
-    </message>
-    <message>
         <source>Smoothing of this session failed: {subject} ({detail}).</source>
         <translation>Lo smoothing di questa seduta non è riuscito: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>Some frames are smaller and were enlarged: {subject} ({detail}).</source>
-        <translation>Alcuni fotogrammi sono più piccoli e sono stati ingranditi: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Someone else changed this record, so your change was not saved.</source>
         <translation>Qualcun altro ha modificato questa scheda, quindi la modifica non è stata salvata.</translation>
     </message>
     <message>
-        <source>State it in the camera file.</source>
-        <translation>Indicarlo nel file della telecamera.</translation>
-    </message>
-    <message>
-        <source>That file was not changed.</source>
-        <translation>Quel file non è stato modificato.</translation>
-    </message>
-    <message>
         <source>The backup cannot be read: {subject} ({detail}).</source>
         <translation>La copia di sicurezza non può essere letta: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The backup is incomplete: {subject} is missing or cannot be read; {detail} in all.</source>
-        <translation>La copia di sicurezza è incompleta: {subject} manca o non può essere letto; in tutto {detail}.</translation>
-    </message>
-    <message>
-        <source>The backup’s verification failed: a file read back differs from the original ({subject}, {detail}).</source>
-        <translation>La verifica della copia di sicurezza non è riuscita: un file riletto è diverso dall’originale ({subject}, {detail}).</translation>
     </message>
     <message>
         <source>The calibration board is not visible: {subject} ({detail}).</source>
@@ -4946,10 +4690,6 @@
     <message>
         <source>The clicked points do not form a hand ({subject}).</source>
         <translation>I punti indicati non formano una mano ({subject}).</translation>
-    </message>
-    <message>
-        <source>The clinic’s records server does not answer: {subject} ({detail}).</source>
-        <translation>Il server del centro non risponde: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The data on this computer are intact.</source>
@@ -5020,10 +4760,6 @@
         <translation>L’elenco dei pazienti era danneggiato. È stato ricostruito dalle sedute e da ciò che era leggibile ({detail}).</translation>
     </message>
     <message>
-        <source>The patient list was made by another version of Carpus: {subject} ({detail}).</source>
-        <translation>L’elenco dei pazienti è di un’altra versione di Carpus: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>The patient list was missing and was rebuilt from the sessions: {subject}.</source>
         <translation>L’elenco dei pazienti mancava ed è stato ricostruito dalle sedute: {subject}.</translation>
     </message>
@@ -5038,14 +4774,6 @@
     <message>
         <source>The recording contains no frames: {subject} ({detail}).</source>
         <translation>La registrazione non contiene fotogrammi: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The reference has nothing to compare: {subject} ({detail}).</source>
-        <translation>Il riferimento non contiene nulla di confrontabile: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>The session folder contains nothing from Carpus: {subject}.</source>
-        <translation>La cartella delle sedute non contiene nulla di Carpus: {subject}.</translation>
     </message>
     <message>
         <source>The session folder is not available ({detail}). The session is saved in {subject}.</source>
@@ -5064,32 +4792,12 @@
         <translation>In {subject} non ci sono copie di sicurezza.</translation>
     </message>
     <message>
-        <source>There is no camera type called {subject} ({detail}).</source>
-        <translation>Non esiste un tipo di telecamera chiamato {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>There is no marker set called {subject} ({detail}).</source>
-        <translation>Non esiste un insieme di marcatori chiamato {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>There is no patient called {subject} ({detail}).</source>
         <translation>Non esiste un paziente chiamato {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>They are no longer listed. Carpus tries again at each start.</source>
-        <translation>Non sono più in elenco. Carpus riprova a ogni avvio.</translation>
-    </message>
-    <message>
-        <source>They were not changed. All other sessions are safe.</source>
-        <translation>Non sono stati modificati. Tutte le altre sedute sono al sicuro.</translation>
-    </message>
-    <message>
         <source>This camera does not deliver the images that Carpus needs: {subject} ({detail}).</source>
         <translation>Questa telecamera non fornisce le immagini di cui Carpus ha bisogno: {subject} ({detail}).</translation>
-    </message>
-    <message>
-        <source>This cannot be used as a name: {detail} ({subject}).</source>
-        <translation>Questo non può essere un nome: {detail} ({subject}).</translation>
     </message>
     <message>
         <source>This session cannot be opened: {subject} ({detail}).</source>
@@ -5108,10 +4816,6 @@
         <translation>La prossima volta attivare l’allineamento profondità-colore nelle impostazioni della telecamera.</translation>
     </message>
     <message>
-        <source>Two patients had the name {subject}: the second one now has ({detail}) after it.</source>
-        <translation>Due pazienti avevano il nome {subject}: il secondo ora è seguito da ({detail}).</translation>
-    </message>
-    <message>
         <source>Type the name instead of pasting it.</source>
         <translation>Digitare il nome invece di incollarlo.</translation>
     </message>
@@ -5128,10 +4832,6 @@
         <translation>Usare una registrazione con colore e profondità.</translation>
     </message>
     <message>
-        <source>Use the copy in a backup.</source>
-        <translation>Usare il file di una copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>Use the same size for colour and depth next time.</source>
         <translation>La prossima volta usare la stessa dimensione per colore e profondità.</translation>
     </message>
@@ -5140,48 +4840,16 @@
         <translation>Usare la finestra già aperta, o scegliere un’altra cartella.</translation>
     </message>
     <message>
-        <source>Wait until it has finished, or choose another folder.</source>
-        <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
-    </message>
-    <message>
-        <source>Wait until its recording has ended, or restart Carpus: it completes the session.</source>
-        <translation>Attendere la fine della registrazione, o riavviare Carpus, che completa la seduta.</translation>
-    </message>
-    <message>
-        <source>What was recorded is safe.</source>
-        <translation>Ciò che è stato registrato è al sicuro.</translation>
-    </message>
-    <message>
-        <source>Without --scheduler this computer does the work.</source>
-        <translation>Senza --scheduler il calcolo si svolge su questo computer.</translation>
-    </message>
-    <message>
         <source>Write “registered: true” or “registered: false” into camera_info.yaml.</source>
         <translation>Scrivere “registered: true” o “registered: false” in camera_info.yaml.</translation>
-    </message>
-    <message>
-        <source>You can use the session as it is.</source>
-        <translation>La seduta si può usare così com’è.</translation>
     </message>
     <message>
         <source>You do not have permission to open the camera ({detail}).</source>
         <translation>Mancano i permessi per aprire la telecamera ({detail}).</translation>
     </message>
     <message>
-        <source>camera_info.yaml states it as depth_unit_m.</source>
-        <translation>In camera_info.yaml è indicata come depth_unit_m.</translation>
-    </message>
-    <message>
         <source>it contains more than one record</source>
         <translation>contiene più di un record</translation>
-    </message>
-    <message>
-        <source>“carpus calibrate-camera --board” prints it.</source>
-        <translation>“carpus calibrate-camera --board” la stampa.</translation>
-    </message>
-    <message>
-        <source>“carpus recover” completes it too.</source>
-        <translation>La completa anche “carpus recover”.</translation>
     </message>
     <message>
         <source>“carpus track --leave-out-damaged” continues without it.</source>
@@ -5472,14 +5140,6 @@
         <translation>insieme di marcatori {subject}</translation>
     </message>
     <message>
-        <source>not TOML: endlessly nested tables</source>
-        <translation>non è TOML: tabelle annidate senza fine</translation>
-    </message>
-    <message>
-        <source>on, corrected by Carpus</source>
-        <translation>attivo, corretto da Carpus</translation>
-    </message>
-    <message>
         <source>points from {format}</source>
         <translation>punti da {format}</translation>
     </message>
@@ -5506,10 +5166,6 @@
     <message>
         <source>Neutral</source>
         <translation>Neutro</translation>
-    </message>
-    <message>
-        <source>Or analyse the recording again with “carpus track”.</source>
-        <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
     </message>
     <message>
         <source>Ab-/adduction</source>
@@ -5544,14 +5200,6 @@
         <translation>Collegare la telecamera attesa. Misurazione e registrazione riprendono poi automaticamente.</translation>
     </message>
     <message>
-        <source>Continue measuring. If the server still does not answer, ask your IT support.</source>
-        <translation>Continuare a misurare. Se il server continua a non rispondere, chiedere al supporto informatico.</translation>
-    </message>
-    <message>
-        <source>Lay it flat under the camera, fully in view, about 60 cm away, in good light.</source>
-        <translation>Metterlo piatto sotto la telecamera, tutto inquadrato, a circa 60 cm, con buona luce.</translation>
-    </message>
-    <message>
         <source>Plug the camera in again. Measurement and recording then continue automatically.</source>
         <translation>Ricollegare la telecamera. Misurazione e registrazione riprendono poi automaticamente.</translation>
     </message>
@@ -5580,10 +5228,6 @@
         <translation>“carpus doctor” mostra che cosa manca e come installarlo.</translation>
     </message>
     <message>
-        <source>“carpus doctor” shows which one it is.</source>
-        <translation>“carpus doctor” mostra qual è.</translation>
-    </message>
-    <message>
         <source>{detail} in the session folder cannot be read and were ignored: {subject}.</source>
         <translation>{detail} nella cartella delle sedute non possono essere letti e sono stati ignorati: {subject}.</translation>
     </message>
@@ -5592,32 +5236,16 @@
         <translation>{name} è collegata, ma il driver non la vede</translation>
     </message>
     <message>
-        <source>Or put the camera’s camera_info.yaml next to the recording.</source>
-        <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
-    </message>
-    <message>
         <source>Remove files that do not belong to Carpus, or choose another disk.</source>
         <translation>Rimuovere file che non appartengono a Carpus, o scegliere un altro disco.</translation>
-    </message>
-    <message>
-        <source>The MDC values stay as they are.</source>
-        <translation>I valori MDC restano come sono.</translation>
     </message>
     <message>
         <source>The previous folder was {detail}. Nothing was moved.</source>
         <translation>La cartella precedente era {detail}. Non è stato spostato nulla.</translation>
     </message>
     <message>
-        <source>The recording has unusual units and is read that way: {subject} ({detail}).</source>
-        <translation>La registrazione ha unità insolite e viene letta così: {subject} ({detail}).</translation>
-    </message>
-    <message>
         <source>Reinstall it.</source>
         <translation>Reinstallarlo.</translation>
-    </message>
-    <message>
-        <source>damaged: needs more memory than any session</source>
-        <translation>danneggiato: richiede più memoria di qualsiasi seduta</translation>
     </message>
     <message>
         <source>no fonts of Carpus</source>
@@ -5738,14 +5366,6 @@
     <message>
         <source>On the command line, set it with --camera.</source>
         <translation>Da riga di comando si indica con --camera.</translation>
-    </message>
-    <message>
-        <source>Session files are safe. Keep this file: it is the only one with the names and notes.</source>
-        <translation>I file delle sedute sono al sicuro. Conservare questo file: nomi e note si trovano solo qui.</translation>
-    </message>
-    <message>
-        <source>These sessions are not a test–retest study: {subject} ({detail}).</source>
-        <translation>Queste sedute non sono uno studio test-retest: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>This line must be 100 mm long. If it is not,</source>
@@ -6428,6 +6048,374 @@ cm</translation>
     <message>
         <source>to 54 years</source>
         <translation>fino a 54 anni</translation>
+    </message>
+    <message>
+        <source>In the middle of the back of the wrist, in the small hollow.</source>
+        <translation>Al centro del dorso del polso, nella piccola fossetta.</translation>
+    </message>
+    <message>
+        <source>Another blue spot fits the {markers} better than the clicked one.</source>
+        <translation>Un altro punto blu corrisponde meglio a: {markers}.</translation>
+    </message>
+    <message>
+        <source>Click the centre of the marker again, and keep the hand still.</source>
+        <translation>Fare di nuovo clic al suo centro e tenere ferma la mano.</translation>
+    </message>
+    <message>
+        <source>Click the centre of the {markers} again, or cover the other spot.</source>
+        <translation>Fare di nuovo clic al centro ({markers}), o coprire l’altro punto.</translation>
+    </message>
+    <message>
+        <source>Cover the spot with the question mark, or give it the correct label.</source>
+        <translation>Coprire il punto con il punto interrogativo, o dargli la sua etichetta.</translation>
+    </message>
+    <message>
+        <source>The {markers} does not fit the other markers: no hand has this shape.</source>
+        <translation>Nessuna mano ha questa forma: un marcatore non è compatibile con gli altri ({markers}).</translation>
+    </message>
+    <message>
+        <source>The camera is connected again: {subject} (disconnected for {detail}).</source>
+        <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
+    </message>
+    <message>
+        <source>The hand length is {value} mm (the limit is {limit} mm).</source>
+        <translation>La mano misura {value} mm (il limite è {limit} mm).</translation>
+    </message>
+    <message>
+        <source>The hand length is {value} mm. Last time it was {limit} mm.</source>
+        <translation>La mano misura {value} mm, l’ultima volta {limit} mm.</translation>
+    </message>
+    <message>
+        <source>The hand was still for only {value} frames ({limit} or more are good).</source>
+        <translation>La mano è stata ferma solo per {value} fotogrammi ({limit} o più vanno bene).</translation>
+    </message>
+    <message>
+        <source>The pseudonym {subject} belongs to another patient.</source>
+        <translation>Il nome {subject} appartiene a un altro paziente.</translation>
+    </message>
+    <message>
+        <source>The labels seem to be shifted: the marker clicked as {first} is probably the {second}.</source>
+        <translation>Le etichette sembrano spostate: il marcatore indicato come {first} è in realtà {second}.</translation>
+    </message>
+    <message>
+        <source>The Dask scheduler at {subject} does not respond ({detail}).</source>
+        <translation>Lo scheduler all’indirizzo {subject} non risponde ({detail}).</translation>
+    </message>
+    <message>
+        <source>This camera does not align depth with colour, so depths at the markers will be wrong.</source>
+        <translation>Questa telecamera non allinea la profondità al colore. La profondità si misura quindi accanto ai marcatori.</translation>
+    </message>
+    <message>
+        <source>Unplug the camera, plug it in again, then restart the measurement.</source>
+        <translation>Scollegare la telecamera, ricollegarla e ricominciare.</translation>
+    </message>
+    <message>
+        <source>Use a C3D, TRC or MOT file, a CSV table with its column map, or a session.</source>
+        <translation>Usare C3D, TRC, MOT, una tabella CSV con la mappa delle colonne, o una seduta.</translation>
+    </message>
+    <message>
+        <source>Use a camera with colour and depth, such as the Asus Xtion.</source>
+        <translation>Usare una telecamera con colore e profondità, come la Xtion.</translation>
+    </message>
+    <message>
+        <source>Use the marker set wrist6 or hand21.</source>
+        <translation>Usare wrist6 o hand21.</translation>
+    </message>
+    <message>
+        <source>damaged: a name in it is not text</source>
+        <translation>un nome che non è un testo</translation>
+    </message>
+    <message>
+        <source>all six markers visible in {count} of {looked} frames</source>
+        <translation>tutti i sei marcatori in {count} fotogrammi su {looked}</translation>
+    </message>
+    <message>
+        <source>{count} bytes after the end of the recording</source>
+        <translation>{count} byte dopo la fine</translation>
+    </message>
+    <message>
+        <source>damaged: the end cannot be read</source>
+        <translation>danneggiato: non leggibile fino alla fine</translation>
+    </message>
+    <message>
+        <source>damaged: Carpus could not finish reading it</source>
+        <translation>danneggiato: la lettura non termina</translation>
+    </message>
+    <message>
+        <source>the focal length is uncertain by {share} %</source>
+        <translation>la distanza focale è nota solo entro il {share} %</translation>
+    </message>
+    <message>
+        <source>this setting does not exist (file {file})</source>
+        <translation>questa impostazione non esiste (in {file})</translation>
+    </message>
+    <message>
+        <source>The labels of {markers} seem to be swapped.</source>
+        <translation>Sembrano scambiati: {markers}.</translation>
+    </message>
+    <message>
+        <source>damaged: the calibration in it does not describe a hand</source>
+        <translation>danneggiata: la calibrazione non descrive una mano</translation>
+    </message>
+    <message>
+        <source>A recording ended before its first second was saved, so it cannot be recovered: {subject}.</source>
+        <translation>Una registrazione è terminata prima che il primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
+    </message>
+    <message>
+        <source>A session that was saved on this computer is now in the session folder: {subject}.</source>
+        <translation>Una seduta conservata su questo computer è ora nella cartella delle sedute: {subject}.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. Your last entries may not be saved.</source>
+        <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere salvato.</translation>
+    </message>
+    <message>
+        <source>Back up to another disk now, and replace the faulty disk.</source>
+        <translation>Eseguire subito una copia di sicurezza su un altro disco, e sostituire questo disco.</translation>
+    </message>
+    <message>
+        <source>Check that the reference shows the same movement, and state which column or marker is which.</source>
+        <translation>Controllare che sia lo stesso movimento, e indicare a che cosa corrisponde ogni colonna o marcatore.</translation>
+    </message>
+    <message>
+        <source>Check that the folder exists and that you are allowed to write to it, or choose another folder.</source>
+        <translation>Controllare che la cartella esista e che vi si possa scrivere, o sceglierne un’altra.</translation>
+    </message>
+    <message>
+        <source>Check the address of the scheduler.</source>
+        <translation>Controllare l’indirizzo.</translation>
+    </message>
+    <message>
+        <source>Close the other window or program, then try again.</source>
+        <translation>Chiuderlo lì, poi riprovare.</translation>
+    </message>
+    <message>
+        <source>Close other programs that use these files, then restart Carpus.</source>
+        <translation>Chiudere gli altri programmi che li usano, poi riavviare Carpus.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. The gap is marked in the session.</source>
+        <translation>Continuare. La lacuna è indicata nella seduta.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. When the disk or network is available again, Carpus moves the session automatically.</source>
+        <translation>Continuare. Quando il disco o la rete tornano disponibili, Carpus sposta la seduta automaticamente.</translation>
+    </message>
+    <message>
+        <source>Copy the recording again from its source, or correct its list of frames.</source>
+        <translation>Copiare di nuovo la registrazione, o correggere il suo elenco di fotogrammi.</translation>
+    </message>
+    <message>
+        <source>Everything saved before is safe. The data that Carpus was writing may be missing.</source>
+        <translation>Tutto ciò che era già salvato è al sicuro. Ciò che si stava scrivendo può mancare.</translation>
+    </message>
+    <message>
+        <source>Glue the board onto something stiff and flat, use good light, and hold the board still.</source>
+        <translation>Incollare la tavola su qualcosa di rigido e piano, illuminarla bene e tenerla ferma.</translation>
+    </message>
+    <message>
+        <source>To use another pseudonym, edit the patient.</source>
+        <translation>Se un altro nome è migliore, cambiarlo nella scheda del paziente.</translation>
+    </message>
+    <message>
+        <source>If you copied the file, copy it again. Otherwise restore it from a backup.</source>
+        <translation>Se è stata copiata, copiarla di nuovo. Altrimenti ripristinarla da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>If the units are wrong, correct the list of frames or state the unit of depth.</source>
+        <translation>Se non è così, correggere l’elenco dei fotogrammi o indicare l’unità della profondità.</translation>
+    </message>
+    <message>
+        <source>The session can be opened, but its values may have been altered.</source>
+        <translation>Può essere aperta, ma i suoi valori possono essere stati alterati.</translation>
+    </message>
+    <message>
+        <source>The session is complete.</source>
+        <translation>È completa.</translation>
+    </message>
+    <message>
+        <source>{subject} does not state whether depth and colour are aligned. Carpus assumes that they are.</source>
+        <translation>Non è indicato se profondità e colore siano allineati in {subject}; Carpus presume di sì.</translation>
+    </message>
+    <message>
+        <source>The session is safe on this computer.</source>
+        <translation>È al sicuro su questo computer.</translation>
+    </message>
+    <message>
+        <source>The SHA-256 checksum of the file does not match.</source>
+        <translation>La somma di controllo SHA-256 non corrisponde.</translation>
+    </message>
+    <message>
+        <source>Measure a session, or choose the folder that contains the sessions.</source>
+        <translation>Misurarne una, o scegliere la cartella che contiene le sedute.</translation>
+    </message>
+    <message>
+        <source>You do not need to do anything.</source>
+        <translation>Non occorre fare nulla.</translation>
+    </message>
+    <message>
+        <source>There is no camera calibration for {subject}, so lengths may be wrong by several per cent ({detail}).</source>
+        <translation>Con {subject} non è stata trovata una calibrazione della telecamera: le lunghezze possono scostarsi di alcuni punti percentuali ({detail}).</translation>
+    </message>
+    <message>
+        <source>Nothing is lost. Names, images and values stay hidden.</source>
+        <translation>Non è andato perso nulla. Tutto resta nascosto.</translation>
+    </message>
+    <message>
+        <source>Open the record again and enter your change once more.</source>
+        <translation>Riaprirla e inserire di nuovo la modifica.</translation>
+    </message>
+    <message>
+        <source>Restart Carpus to recover what can still be read. If names are missing, restore a backup.</source>
+        <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se mancano nomi, ripristinare una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Restore these files from a backup.</source>
+        <translation>Ripristinarli da una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Show the board in all parts of the image, tilted to all four sides, near and far. Hold it still.</source>
+        <translation>Mostrare la tavola in ogni parte dell’immagine, inclinata sui quattro lati, vicina e lontana. Tenerla ferma.</translation>
+    </message>
+    <message>
+        <source>Some images are smaller than the others and were enlarged: {subject} ({detail}).</source>
+        <translation>Alcuni fotogrammi sono più piccoli e sono stati ingranditi: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>State in the camera file whether depth and colour are aligned.</source>
+        <translation>Indicarlo nel file della telecamera.</translation>
+    </message>
+    <message>
+        <source>The backup is incomplete: {subject} is missing or cannot be read ({detail} in total).</source>
+        <translation>La copia di sicurezza è incompleta: {subject} manca o non può essere letto; in tutto {detail}.</translation>
+    </message>
+    <message>
+        <source>The backup failed verification: a file in it differs from the original ({subject}, {detail}).</source>
+        <translation>La verifica della copia di sicurezza non è riuscita: un file riletto è diverso dall’originale ({subject}, {detail}).</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not respond: {subject} ({detail}).</source>
+        <translation>Il server del centro non risponde: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The patient list was created by another version of Carpus: {subject} ({detail}).</source>
+        <translation>L’elenco dei pazienti è di un’altra versione di Carpus: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The reference contains nothing that can be compared: {subject} ({detail}).</source>
+        <translation>Il riferimento non contiene nulla di confrontabile: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session folder contains no Carpus data: {subject}.</source>
+        <translation>La cartella delle sedute non contiene nulla di Carpus: {subject}.</translation>
+    </message>
+    <message>
+        <source>There is no camera type with the name {subject} ({detail}).</source>
+        <translation>Non esiste un tipo di telecamera chiamato {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is no marker set with the name {subject} ({detail}).</source>
+        <translation>Non esiste un insieme di marcatori chiamato {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The files are no longer listed. Carpus tries to delete them again at each start.</source>
+        <translation>Non sono più in elenco. Carpus riprova a ogni avvio.</translation>
+    </message>
+    <message>
+        <source>These files were not changed. All other sessions are safe.</source>
+        <translation>Non sono stati modificati. Tutte le altre sedute sono al sicuro.</translation>
+    </message>
+    <message>
+        <source>This text cannot be used as a name: {detail} ({subject}).</source>
+        <translation>Questo non può essere un nome: {detail} ({subject}).</translation>
+    </message>
+    <message>
+        <source>Two patients had the pseudonym {subject}. The second one now has ({detail}) after it.</source>
+        <translation>Due pazienti avevano lo pseudonimo {subject}. Il secondo ora è seguito da ({detail}).</translation>
+    </message>
+    <message>
+        <source>Restore the session from a backup.</source>
+        <translation>Usare il file di una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>Wait until the other program has finished, or choose another folder.</source>
+        <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
+    </message>
+    <message>
+        <source>Wait until the recording has ended, or restart Carpus to complete the session.</source>
+        <translation>Attendere la fine della registrazione, o riavviare Carpus, che completa la seduta.</translation>
+    </message>
+    <message>
+        <source>Everything recorded is safe.</source>
+        <translation>Ciò che è stato registrato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Without the option --scheduler, this computer tracks the recordings.</source>
+        <translation>Senza --scheduler il calcolo si svolge su questo computer.</translation>
+    </message>
+    <message>
+        <source>You can use the live values of this session.</source>
+        <translation>La seduta si può usare così com’è.</translation>
+    </message>
+    <message>
+        <source>The unit of depth is depth_unit_m in camera_info.yaml.</source>
+        <translation>In camera_info.yaml è indicata come depth_unit_m.</translation>
+    </message>
+    <message>
+        <source>“carpus calibrate-camera --board” writes the board as a PDF to print.</source>
+        <translation>“carpus calibrate-camera --board” la stampa.</translation>
+    </message>
+    <message>
+        <source>“carpus recover” also completes the session.</source>
+        <translation>La completa anche “carpus recover”.</translation>
+    </message>
+    <message>
+        <source>not a valid TOML file: too many nested tables</source>
+        <translation>non è TOML: tabelle annidate senza fine</translation>
+    </message>
+    <message>
+        <source>on; Carpus corrects it</source>
+        <translation>attivo, corretto da Carpus</translation>
+    </message>
+    <message>
+        <source>You can also track the recording again with “carpus track”.</source>
+        <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
+    </message>
+    <message>
+        <source>Continue measuring. If the server still does not respond, ask your IT support.</source>
+        <translation>Continuare a misurare. Se il server continua a non rispondere, chiedere al supporto informatico.</translation>
+    </message>
+    <message>
+        <source>Lay the card flat under the camera, fully in view, about 60 cm away, in good light.</source>
+        <translation>Metterlo piatto sotto la telecamera, tutto inquadrato, a circa 60 cm, con buona luce.</translation>
+    </message>
+    <message>
+        <source>“carpus doctor” shows which data folder is used.</source>
+        <translation>“carpus doctor” mostra qual è.</translation>
+    </message>
+    <message>
+        <source>You can also put the file camera_info.yaml of the camera next to the recording.</source>
+        <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
+    </message>
+    <message>
+        <source>The MDC values were not changed.</source>
+        <translation>I valori MDC restano come sono.</translation>
+    </message>
+    <message>
+        <source>The recording has unusual units, and Carpus converts them: {subject} ({detail}).</source>
+        <translation>La registrazione ha unità insolite e viene letta così: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>damaged: reading it needs too much memory</source>
+        <translation>danneggiato: richiede più memoria di qualsiasi seduta</translation>
+    </message>
+    <message>
+        <source>Session files are safe. Do not delete the patient list: no other file has the names and notes.</source>
+        <translation>I file delle sedute sono al sicuro. Conservare questo file: nomi e note si trovano solo qui.</translation>
+    </message>
+    <message>
+        <source>These sessions cannot be used as a test–retest study: {subject} ({detail}).</source>
+        <translation>Queste sedute non sono uno studio test-retest: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>
@@ -10773,10 +10761,6 @@ dall’alto</translation>
         <translation>{width} × {height} per le finestre</translation>
     </message>
     <message>
-        <source>Choose more pixels, or a smaller scale, in the display settings: {width} × {height} or more.</source>
-        <translation>Scegliere più pixel, o una scala minore, nelle impostazioni dello schermo: {width} × {height} o più.</translation>
-    </message>
-    <message>
         <source>Install Carpus again: part of it is missing or damaged.</source>
         <translation>Installare di nuovo Carpus: una parte manca o è danneggiata.</translation>
     </message>
@@ -10805,7 +10789,11 @@ dall’alto</translation>
         <translation>Permessi della telecamera</translation>
     </message>
     <message>
-        <source>the fonts of Carpus cannot be used</source>
+        <source>In the display settings, choose a higher resolution or a smaller scale: {width} × {height} or more.</source>
+        <translation>Scegliere più pixel, o una scala minore, nelle impostazioni dello schermo: {width} × {height} o più.</translation>
+    </message>
+    <message>
+        <source>the fonts of Carpus cannot be loaded</source>
         <translation>i caratteri di Carpus non si possono usare</translation>
     </message>
 </context>

@@ -369,7 +369,7 @@ def test_listed_result_is_never_discarded(kept: Kept, monkeypatch: pytest.Monkey
         raise OSError(errno.ENOSPC, "No space left on device")
 
     def slow(path: Path) -> None:
-        raise SessionUnreadable(path, "damaged: reading does not finish")
+        raise SessionUnreadable(path, "damaged: Carpus could not finish reading it")
 
     killed_once_listed(kept, monkeypatch, trial)
     with pytest.raises(ConcurrentChange):

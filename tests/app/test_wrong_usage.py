@@ -264,5 +264,5 @@ def test_list_of_patients_that_another_program_holds_is_left_where_it_is(
     finally:
         holding.close()
     assert (done.code, done.err.count("\n")) == (1, 1)
-    assert "Close it there" in done.err
+    assert "Close the other window" in done.err
     assert "move" not in done.err

@@ -69,7 +69,7 @@ def test_log_command_prints_and_writes_table(tmp_path: Path, command: Command) -
 
 NOTHING_THERE = (
     "carpus: The folder contains no Carpus data: {}. Nothing was changed. "
-    "Choose the folder that contains the patients. “carpus doctor” shows which one it is. (C-410)\n"
+    "Choose the folder that contains the patients. “carpus doctor” shows which data folder is used. (C-410)\n"
 )
 
 

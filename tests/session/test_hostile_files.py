@@ -174,7 +174,8 @@ def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
 
 
 @pytest.mark.parametrize(
-    ("name", "said"), [("loop", "to the end|does not finish"), ("die", "to the end"), ("greed", "more memory")]
+    ("name", "said"),
+    [("loop", "the end cannot be read|could not finish"), ("die", "the end cannot be read"), ("greed", "more memory")],
 )
 def test_hostile_file_affects_reading_process_only(
     tmp_path: Path, another: ReadingProcess, name: str, said: str

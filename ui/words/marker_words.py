@@ -39,7 +39,7 @@ def marker_placement(marker: str) -> str:
     """Say where exactly a marker is placed on the hand."""
     joint = marker.rstrip("12345")
     if marker == "WRIST":
-        return tr("In the middle of the back of the wrist, in the small dimple.")
+        return tr("In the middle of the back of the wrist, in the small hollow.")
     if marker == "CMC1":
         return tr("At the base of the thumb, just distal to the anatomical snuffbox.")
     return {

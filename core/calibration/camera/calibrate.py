@@ -221,7 +221,7 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
         raise BoardUnfit(subject, phrase("reprojection error {error_px} px, at most {most_px} px accepted", **sizes))
     if fit.focal_sd_px > MAX_FOCAL_SD_SHARE * fit.camera.fx_px:
         share = format_rounded(100.0 * fit.focal_sd_px / fit.camera.fx_px, 1)
-        raise BoardViewsTooSimilar(subject, phrase("the focal length is known only to within {share} %", share=share))
+        raise BoardViewsTooSimilar(subject, phrase("the focal length is uncertain by {share} %", share=share))
     return fit
 
 

@@ -138,7 +138,7 @@ class CardMeasurement:
         """Compute the result. Raises :class:`CardNotVisible` with fewer than five frames."""
         if len(self._positions) < MIN_FRAMES:
             counts = {"count": len(self._positions), "looked": self._frames_searched}
-            raise CardNotVisible(subject, phrase("all six markers in {count} of {looked} frames", **counts))
+            raise CardNotVisible(subject, phrase("all six markers visible in {count} of {looked} frames", **counts))
         each = np.array([measure_dimensions(one) for one in self._positions])
         middle = np.median(np.array(self._positions), axis=0)
         once = np.triu_indices(len(DISCS), 1)

@@ -294,7 +294,7 @@ class RawRecording:
                 DamagedFramesExcluded(self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count))
             )
         if self._surplus_bytes:
-            detail = phrase("{count} bytes after its end", count=self._surplus_bytes)
+            detail = phrase("{count} bytes after the end of the recording", count=self._surplus_bytes)
             self._notice(RecordingDamaged(self._path, detail))
 
     def load_color(self, timestamp_s: float) -> ByteImage | None:
