@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 from itertools import product
@@ -259,6 +260,19 @@ def test_missing_pandas_is_reported_in_a_sentence(folder: Path, monkeypatch: pyt
     said = "\n".join(raised.value.__notes__)
     assert "A required Python package is not installed: pandas." in said
     assert "pip install 'carpus[research]'" in said
+
+
+def test_page_of_the_interface_runs_from_top_to_bottom(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(carpus, "simulate", lambda into, **_: shutil.copytree(folder, into), raising=False)
+    page = (ROOT / "resources" / "api.md").read_text(encoding="utf-8")
+    for block in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
+        shorter = block.replace("range(1, 5)", "range(1, 2)").replace("range(5)", "range(2)")
+        exec(compile(shorter, "api.md", "exec"), {})
+    assert (tmp_path / "progress.png").stat().st_size > 5000
+    assert list((tmp_path / "exported").glob("*.c3d"))
 
 
 def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
