@@ -34,7 +34,6 @@ from tests.accuracy.readings import reading_of
 from tests.accuracy.runs import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import longest_untracked_s, markers_of, names_taken, scored_frames, true_names
-from tests.accuracy.speeds import stroke_speeds
 from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence
 
@@ -159,7 +158,6 @@ def _scored(
         int(names.wrong.sum()),
         longest_s(names.wrong, truth.timestamp_s[scored]),
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
-        stroke_speeds(truth, scored, back),
         reading_of(
             truth, scored, truth.angles_rad, causal.error_deg, causal.sd_deg, unused=names.missed, shown=names.shown
         ),

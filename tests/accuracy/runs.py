@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from carpus.core.model.types import FloatArray, TrackStatus
 from tests.accuracy.readings import Reading, longest_each_s
-from tests.accuracy.speeds import StrokeSpeeds
 
 Mode = Literal["blobs", "pictures"]
 """Simulated measurements, or rendered pictures through the whole of Carpus."""
@@ -32,7 +31,7 @@ class Run:
 
     ``smoothed`` None where it does not look back; ``status`` (N,) as in a session; ``taken`` measurements were taken
     for a marker, ``wrong`` of them another thing's, for at most ``longest_wrong_s`` on end; ``longest_untracked_s`` it
-    was not tracked while four discs of the palm showed; ``speeds`` of its strokes and the therapist's ``reading``,
+    was not tracked while four discs of the palm showed; the therapist's ``reading``,
     live, where they were looked at.
     """
 
@@ -47,7 +46,6 @@ class Run:
     wrong: int
     longest_wrong_s: float
     longest_untracked_s: float
-    speeds: StrokeSpeeds | None = None
     reading: Reading | None = None
 
     @property

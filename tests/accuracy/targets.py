@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.model.types import FloatArray
-from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, Run
-from tests.accuracy.scenarios import FAST, REACHING, SLOW, TROUBLE, Scenario
+from tests.accuracy.runs import CARPUS, SIMPLEST, Run
+from tests.accuracy.scenarios import FAST, SLOW, TROUBLE, Scenario
 from tests.accuracy.scores import Score, score
 
 MOST_RMSE_DEG: dict[str, tuple[float, float, float]] = {SLOW: (0.3, 1.0, 1.2), FAST: (0.4, 1.0, 1.3)}
@@ -22,8 +22,6 @@ HARDER = ("10 false blobs", "30 % hidden")
 MOST_HARDER = 2.0
 MOST_WRONG_OF_ANY = 0.001
 MOST_SWAP_S = MOST_BACK_S = 0.5
-MOST_OVER_BOUND = 1.15
-MOST_SPEED_ERROR = {"angular": 0.05, "linear": 0.03}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +55,6 @@ def verdicts(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict
         out.append(Verdict("no recording ends lost", ", ".join(lost) or "none", not lost))
         out.append(_better_than_simplest(runs, scenarios))
         out += [*_troubles(carpus, scenarios), *_names(carpus), _smoother(carpus, scenarios)]
-        out += [*_ratios(runs, scenarios), *_speeds(carpus, scenarios)]
     return out
 
 
@@ -186,42 +183,3 @@ def _smoother(carpus: Sequence[Run], scenarios: Sequence[Scenario]) -> Verdict:
             above.append(f"{scenario.name} {_text(back.rmse)} after {_text(live.rmse)}")
     found = f"{rows - len(above)} of {rows}" + "".join(f"; not {row}" for row in above)
     return Verdict("looking back below live in every row", found, not above)
-
-
-def _ratios(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
-    """Against the same filter that was told true names, geometry and noise."""
-    out = []
-    slow = [scenario for scenario in scenarios if scenario.pool == SLOW]
-    for name, rows in (("rest", [s for s in scenarios if s.name == "rest"]), (SLOW, slow)):
-        names = {row.name for row in rows}
-        mine, bound = (
-            score([run for run in runs if run.scenario in names and run.method == method], rows[0].columns)
-            if rows
-            else None
-            for method in (CARPUS, INFORMED)
-        )
-        if mine is not None and bound is not None:
-            ratio = mine.rmse / bound.rmse
-            claim = f"{name}: RMSE at most {MOST_OVER_BOUND:g} times the bound's"
-            out.append(Verdict(claim, _text(ratio), bool((ratio <= MOST_OVER_BOUND).all())))
-    return out
-
-
-def _speeds(carpus: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
-    """Peak speeds of the exercises' strokes (turning) and of reaching (linear), looking back, usual troubles only."""
-    usual = {scenario.name for scenario in scenarios if scenario.pool is not None}
-    out = []
-    speeds = [(run.scenario, run.speeds) for run in carpus if run.scenario in usual and run.speeds is not None]
-    for kind, errors in (
-        ("angular", [found.turning for name, found in speeds if name != REACHING]),
-        ("linear", [found.moving for name, found in speeds if name == REACHING]),
-    ):
-        error = np.concatenate(errors) if errors else np.empty(0)
-        if error.size:
-            rms = float(np.sqrt(np.mean(error**2)))
-            most = MOST_SPEED_ERROR[kind]
-            found = (
-                f"{100 * rms:.1f} % (mean {100 * error.mean():+.1f}, sd {100 * error.std():.1f}; {error.size} strokes)"
-            )
-            out.append(Verdict(f"peak {kind} speed of a stroke within {100 * most:g} %, rms", found, rms <= most))
-    return out
