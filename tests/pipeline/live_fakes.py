@@ -5,13 +5,15 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
-from carpus.core.model.types import Detections, Frame, KinematicState, TrackedFrame, TrackStatus
+from carpus.core.model.types import Detections, Frame, TrackedFrame, TrackStatus
+from tests.session.samples import make_frame
 
 PATIENCE_S = 60.0
 """How long a test waits for what must happen; only a failing test ever waits that long."""
@@ -33,35 +35,13 @@ def frame(index: int, dropped_before: int = 0) -> Frame:
 
 def tracked(of: Frame) -> TrackedFrame:
     """A tracked frame that remembers which frame it came from."""
-    three, none, six = np.zeros(3), np.zeros(0), np.zeros((6, 3))
-    return TrackedFrame(
+    return replace(
+        make_frame(0),
         index=of.index,
         timestamp_s=of.timestamp_s,
         status=TrackStatus.TRACKED,
-        kinematics=KinematicState(
-            position_m=three,
-            velocity_m_s=three,
-            w0_turn_rad=three,
-            rotation_w2_w0=np.eye(3),
-            angular_velocity_rad_s=three,
-            angles_rad=three,
-            angles_sd_rad=three,
-            angles_zyz_rad=three,
-            joint_angles_rad=none,
-            joint_angles_sd_rad=none,
-            joint_velocity_rad_s=none,
-            joint_position_m=np.zeros((0, 3)),
-        ),
-        marker_position_cam_m=six,
-        marker_predicted_px=six[:, :2],
-        marker_predicted_cov_px2=np.zeros((6, 2, 2)),
-        marker_measured_px=six[:, :2],
-        marker_measured_depth_m=six[:, 0],
         detections=Detections.none(),
         dropped_before=of.dropped_before,
-        measured_share=three,
-        nis=1.0,
-        nis_dof=12,
     )
 
 

@@ -245,3 +245,16 @@ def test_retest_few_or_simulated_people_are_not_usable(measured: list[SessionRes
     assert [one.is_usable for one in analyse_retests([one for one in people if one.subject_id != "P10"])] == [False]
     assert [one.is_usable for one in analyse_retests([replace(one, is_simulated=True) for one in people])] == [False]
     assert [one.is_usable for one in analyse_retests(people[:1])] == [False]
+
+
+def test_analyse_retests_builds_a_study(measured: list[SessionResults]) -> None:
+    (one,) = analyse_retests(measured)
+    assert (one.people, one.sessions) == (10, 20)
+    assert sorted(left.reason for left in one.excluded) == ["once", "too_late"]
+    by_hand: dict[str, list[float]] = {}
+    for figures in measured:
+        row = figures.find("flexion", "flexion")
+        by_hand.setdefault(figures.subject_id, []).append(row.mean)
+    pairs = np.array([values[:2] for values in by_hand.values() if len(values) > 1])
+    expected = math.sqrt(float(((pairs[:, 1] - pairs[:, 0]) ** 2).mean()) / 2.0)
+    assert one.results[("flexion", "flexion")].sem == pytest.approx(expected)
