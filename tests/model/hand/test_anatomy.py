@@ -47,3 +47,9 @@ def test_arrays_are_checked_copied_and_read_only() -> None:
         hand.finger_length_m[0, 0] = 1.0
     with pytest.raises(ValueError, match="finger_length_m"):
         dataclasses.replace(hand, finger_length_m=np.zeros((3, 3)))
+
+
+def test_nail_discs_shorten_only_the_last_segment() -> None:
+    whole, nail = anatomy_from_size(0.18), anatomy_from_size(0.18, nail_discs=True)
+    assert np.allclose(nail.finger_length_m / whole.finger_length_m, [[1.0, 1.0, 0.7]] * 4)
+    assert np.allclose(nail.thumb_length_m / whole.thumb_length_m, [1.0, 1.0, 0.8])
