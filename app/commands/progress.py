@@ -63,15 +63,12 @@ def run(arguments: argparse.Namespace) -> int:
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
             from carpus.app.session_commands import read_report_form
-            from carpus.ui.report.builders import write_progress_report
-            from carpus.ui.report.pdf import ensure_application
+            from carpus.ui.report.builders import build_progress_report
+            from carpus.ui.report.pdf import write_report
 
-            application = ensure_application()
-            write_progress_report(
-                figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
-                form=read_report_form(settings.data_folder),
-            )  # fmt: skip
-            del application
+            form, who = read_report_form(settings.data_folder), arguments.subject
+            report = build_progress_report(figures, pseudonym=who, therapist=settings.report.therapist, form=form)
+            write_report(report, path)
         else:
             write_measures(rows, path, arguments.form)
         print(f"Written: {path}")

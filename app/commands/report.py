@@ -61,26 +61,21 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.core.records.limits_file import read_limits
     from carpus.core.results.progress import select_latest_versions
     from carpus.core.results.session_results import compute_session_results
-    from carpus.ui.report.builders import write_progress_report, write_session_report
-    from carpus.ui.report.pdf import ensure_application
+    from carpus.ui.report.builders import build_progress_report, build_session_report
+    from carpus.ui.report.page import Report
+    from carpus.ui.report.pdf import write_report
 
     choices = [read_choices(one.path) for one in sessions]
-    application = ensure_application()
+    report: Report
     if len(sessions) == 1:
-        write_session_report(
-            sessions[0],
-            arguments.output,
-            choices=choices[0],
-            comment=read_comment(sessions[0].path),
-            **look,
-        )
+        report = build_session_report(sessions[0], choices=choices[0], comment=read_comment(sessions[0].path), **look)
     else:
         limits = read_limits(settings.data_folder)
         figures = [compute_session_results(*one, limits) for one in zip(sessions, choices, strict=True)]
         for older in {one.session_id for one in figures} - {one.session_id for one in select_latest_versions(figures)}:
             print_message(f"session {older} is left out: a newer result of its recording counts.")
-        write_progress_report(figures, arguments.output, **look)
-    del application
+        report = build_progress_report(figures, **look)
+    write_report(report, arguments.output)
     log_created_files([(one.path, one.header.session_id) for one in sessions], [arguments.output], "report")
     print(f"Report: {arguments.output}")
     return 0

@@ -21,14 +21,15 @@ from carpus.core.measures.repetitions import NoRepetitionReason, explain_no_repe
 from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.measures.wrist_centre import estimate_wrist_centre, rotation_in_w0
+from carpus.core.model.dates import is_moment
 from carpus.core.model.hand.exercises import STILL_RADIUS_MM, Exercise
 from carpus.core.model.hand.forearm_rotation import to_clinical_targets_deg
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.types import FloatArray, Side, TrackStatus
+from carpus.core.platform.provenance import parameter_section
 from carpus.core.results.measure import Group, Measure, MeasureKey, UnknownReason, summarise_values
 from carpus.core.results.norms import compute_total_shares
 from carpus.core.results.ranges import measure_joint_ranges, measure_still_angles, measure_wrist_ranges
-from carpus.core.results.recorded_camera import UNKNOWN_CAMERA, RecordedCamera, parse_camera
 from carpus.core.results.repetition_rows import (
     ACTIVE,
     PASSIVE,
@@ -141,6 +142,39 @@ def assess_quality(seen: MeasurableSession, repetitions: Sequence[RepetitionResu
         distance_m=verdict.distance_m,
         residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
     )
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedCamera:
+    """Camera of a session.
+
+    ``serial`` is empty if unknown. ``calibrated_at`` (ISO 8601) is when it was calibrated with a board, empty if it was
+    not; ``age_days`` is the age of that calibration at the recording, else NaN.
+    """
+
+    serial: str = ""
+    calibrated_at: str = ""
+    age_days: float = math.nan
+
+
+UNKNOWN_CAMERA = RecordedCamera()
+
+
+def parse_camera(parameters: str) -> RecordedCamera:
+    """Parse the camera from the parameters of a session.
+
+    >>> parameters = '{"source": {"serial": "77", "calibrated": "2026-11-20T09:00+00:00", "calibration_age_days": "5"}}'
+    >>> parse_camera(parameters) == RecordedCamera("77", "2026-11-20T09:00+00:00", 5.0)
+    True
+    """
+    source = parameter_section(parameters, "source")
+    calibrated = str(source.get("calibrated") or "")
+    try:
+        age_days = float(str(source.get("calibration_age_days")))
+    except ValueError:
+        age_days = math.nan
+    serial = str(source.get("serial") or "")
+    return RecordedCamera(serial, calibrated, age_days) if is_moment(calibrated) else RecordedCamera(serial)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,9 +22,8 @@ from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.platform.provenance import parameter_section
 from carpus.core.results.measure import is_total_active_motion
-from carpus.core.results.recorded_camera import parse_camera
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.session_results import SessionResults, compute_session_results
+from carpus.core.results.session_results import SessionResults, compute_session_results, parse_camera
 from carpus.core.session.reader import has_raw
 from carpus.core.session.values import Session
 

@@ -9346,20 +9346,8 @@ von oben</translation>
         <translation>Erste bis letzte Sitzung</translation>
     </message>
     <message>
-        <source>{first} and {last}</source>
-        <translation>{first} und {last}</translation>
-    </message>
-    <message>
-        <source>{before} and {after} repetitions</source>
-        <translation>{before} und {after} Wiederholungen</translation>
-    </message>
-    <message>
         <source>Comparability</source>
         <translation>Vergleichbarkeit</translation>
-    </message>
-    <message>
-        <source>All sessions used the same set-up.</source>
-        <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
     </message>
     <message>
         <source>Save image…</source>

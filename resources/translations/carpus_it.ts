@@ -9346,20 +9346,8 @@ dall’alto</translation>
         <translation>Dalla prima all’ultima seduta</translation>
     </message>
     <message>
-        <source>{first} and {last}</source>
-        <translation>{first} e {last}</translation>
-    </message>
-    <message>
-        <source>{before} and {after} repetitions</source>
-        <translation>{before} e {after} ripetizioni</translation>
-    </message>
-    <message>
         <source>Comparability</source>
         <translation>Confrontabilità</translation>
-    </message>
-    <message>
-        <source>All sessions used the same set-up.</source>
-        <translation>Tutte le sedute hanno la stessa preparazione.</translation>
     </message>
     <message>
         <source>Save image…</source>

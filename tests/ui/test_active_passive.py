@@ -13,13 +13,12 @@ from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Event, Session
-from carpus.ui.report.builders import write_session_report
 from carpus.ui.words.active_passive import MANUAL_SIGN, build_active_passive
 from carpus.ui.words.ranges import repetition_words
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.printed import words_of
+from tests.ui.printed import words_of, write_session_report
 
 HELPED_S = 35.0
 

@@ -23,12 +23,7 @@ from carpus.core.results.manual_proposals import propose_kapandji
 from carpus.core.results.progress import compute_progress
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.builders import (
-    build_progress_report,
-    build_session_report,
-    write_progress_report,
-    write_session_report,
-)
+from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.screens.progress.flow import write_tables
@@ -37,7 +32,7 @@ from tests.ui.conftest import Show
 from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import NOW, FakeSessions, figures_once, hand_values
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
-from tests.ui.printed import words_of
+from tests.ui.printed import words_of, write_progress_report, write_session_report
 
 TODAY = NOW.date()
 

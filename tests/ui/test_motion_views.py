@@ -11,12 +11,11 @@ from PySide6.QtCore import QRectF
 from carpus.core.results.motion_curves import compute_motion_curves
 from carpus.ui.charts.paths import PathsChart, PlaneItem, finger_paths
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.builders import write_session_report
 from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
-from tests.ui.printed import words_of
+from tests.ui.printed import words_of, write_session_report
 
 BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 

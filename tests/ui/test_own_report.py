@@ -25,7 +25,7 @@ from carpus.ui.kit.cells import TableColumn
 from carpus.ui.kit.language import use_language
 from carpus.ui.kit.layouts import STRETCH
 from carpus.ui.report import session_page
-from carpus.ui.report.builders import build_progress_report, build_session_report, write_session_report
+from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import column, legal_line, paged_table
@@ -41,7 +41,7 @@ from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.printed import pages_of, reach_of, tool, words_of
+from tests.ui.printed import pages_of, reach_of, tool, words_of, write_session_report
 
 LONG = "\n".join(f"Line {number} of what the therapist says." for number in range(120))
 

@@ -15,10 +15,17 @@ import pytest
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.report.builders import build_session_report, write_session_report
+from carpus.ui.report.builders import build_session_report
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
-from tests.ui.printed import overlapping_words, pages_of, reach_of, tool, words_of
+from tests.ui.printed import (
+    overlapping_words,
+    pages_of,
+    reach_of,
+    tool,
+    words_of,
+    write_session_report,
+)
 
 ROOT = Path(__file__).parents[2]
 
@@ -170,7 +177,7 @@ def test_kill_leaves_no_half_report_and_next_one_is_whole(tmp_path: Path, monkey
 def test_report_is_written_without_any_display(tmp_path: Path) -> None:
     program = (
         "import pickle, sys; from pathlib import Path\n"
-        "from carpus.ui.report.builders import write_session_report\n"
+        "from tests.ui.printed import write_session_report\n"
         "write_session_report(pickle.loads(Path(sys.argv[1]).read_bytes()), Path(sys.argv[2]))"
     )
     (tmp_path / "session").write_bytes(pickle.dumps(session(seconds=12.0)))

@@ -6,8 +6,8 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.charts.export import render_image
 from carpus.ui.charts.progress import panel_keys
+from carpus.ui.charts.zoom_chart import render_image
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.progress.screen import ProgressScreen

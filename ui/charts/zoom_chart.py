@@ -1,23 +1,30 @@
-"""Chart that zooms and pans along a shared axis, with a menu to copy and save it."""
+"""Chart that zooms and pans along a shared axis, with a menu to copy and save it at print size on white."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, Signal
-from PySide6.QtGui import QContextMenuEvent, QGuiApplication, QResizeEvent
+from PySide6.QtCore import QBuffer, QByteArray, QEvent, QIODevice, QObject, QPoint, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QContextMenuEvent, QGuiApplication, QImage, QPainter, QResizeEvent
+from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QFileDialog, QMenu
 
 from carpus.core.model.errors import CarpusFault
-from carpus.ui.charts import export
 from carpus.ui.charts.axes import Panel
 from carpus.ui.charts.chart import Chart, Plot
+from carpus.ui.charts.style import paper_style
 from carpus.ui.kit.button import icon_button
-from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.table_file import save_private
+from carpus.ui.kit.theme import LIGHT, Theme
 
 # Factor of a notch of the wheel, or of a key.
 ZOOM_STEP = 1.25
+# Width of a page's text, at print resolution.
+WIDTH_MM, DPI = 170.0, 300.0
+SVG_UNITS_PER_POINT = 10.0
+MARGIN_PT = 8.0
+POINTS_PER_MM = 72.0 / 25.4
 
 
 class ZoomChart(Chart):
@@ -185,7 +192,7 @@ class PlotMenu(QObject):
             menu.popup(position)
 
     def copy_picture(self) -> None:
-        QGuiApplication.clipboard().setImage(export.render_image(self._card))
+        QGuiApplication.clipboard().setImage(render_image(self._card))
 
     def save_picture(self) -> None:
         self._save_with_dialog("png", "PNG (*.png)")
@@ -199,8 +206,73 @@ class PlotMenu(QObject):
     def save(self, path: Path) -> None:
         """Save an image or a drawing by the file's suffix."""
         try:
-            export.save_chart(self._card, path)
+            save_chart(self._card, path)
         except CarpusFault as fault:
             self.fault_raised.emit(fault)
         else:
             self.saved.emit(str(path))
+
+
+def _size_pt(chart: Chart) -> tuple[float, float]:
+    width_pt = WIDTH_MM * POINTS_PER_MM
+    return width_pt, width_pt * min(max(chart.height() / max(chart.width(), 1), 0.4), 1.4)
+
+
+def _paint(painter: QPainter, chart: Chart, point: float) -> None:
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    width_pt, height_pt = _size_pt(chart)
+    margin = MARGIN_PT * point
+    box = QRectF(0.0, 0.0, width_pt * point, height_pt * point)
+    chart.render_on_paper(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
+
+
+def render_image(chart: Chart) -> QImage:
+    """Return the chart as an image, 170 mm wide at 300 dpi."""
+    point = DPI / 72.0
+    width_pt, height_pt = _size_pt(chart)
+    image = QImage(round(width_pt * point), round(height_pt * point), QImage.Format.Format_RGB32)
+    image.setDotsPerMeterX(round(DPI / 0.0254))
+    image.setDotsPerMeterY(round(DPI / 0.0254))
+    image.fill(QColor(LIGHT.surface))
+    painter = QPainter(image)
+    _paint(painter, chart, point)
+    painter.end()
+    return image
+
+
+def render_svg(chart: Chart) -> bytes:
+    """Return the chart as SVG."""
+    point = SVG_UNITS_PER_POINT
+    width_pt, height_pt = _size_pt(chart)
+    store = QByteArray()
+    buffer = QBuffer(store)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    generator = QSvgGenerator()
+    generator.setOutputDevice(buffer)
+    generator.setResolution(round(72.0 * point))
+    generator.setSize(QSize(round(width_pt * point), round(height_pt * point)))
+    generator.setViewBox(QRectF(0.0, 0.0, width_pt * point, height_pt * point))
+    painter = QPainter(generator)
+    _paint(painter, chart, point)
+    painter.end()
+    buffer.close()
+    return bytes(store.data())
+
+
+def save_chart(chart: Chart, path: Path) -> None:
+    """Save the chart in the format of the file's suffix.
+
+    Raises
+    ------
+    OutputNotWritable
+            If the file cannot be written.
+    """
+    if path.suffix.lower() == ".svg":
+        content = render_svg(chart)
+    else:
+        store = QByteArray()
+        buffer = QBuffer(store)
+        buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+        render_image(chart).save(buffer, "PNG")  # type: ignore[call-overload]
+        content = bytes(store.data())
+    save_private(path, content)

@@ -1,11 +1,10 @@
-"""Session and progress reports, built from results and written as PDF."""
+"""Session and progress reports, built from results."""
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from carpus.core.measures.manual_measurements import ManualValue, session_values
 from carpus.core.platform.provenance import parameter_section, version_with_revision
@@ -22,7 +21,6 @@ from carpus.core.results.report_form import ReportForm
 from carpus.core.results.session_results import SessionResults, compute_data_digest, compute_session_results
 from carpus.core.results.valid_data import joint_curves, wrist_curves
 from carpus.core.session.values import Session
-from carpus.ui.report.pdf import write_report
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.words.fingers import progress_choices, progress_keys
@@ -79,28 +77,6 @@ def build_session_report(
         form=form or ReportForm(),
         language=language,
     )
-
-
-def write_session_report(report: Session | SessionReport, output_path: Path, **context: object) -> Path:
-    """Write the report of a session as PDF.
-
-    ``context`` are the arguments of :func:`build_session_report` if a session is given. Raises the faults of
-    :func:`write_report`.
-    """
-    page = build_session_report(report, **context) if isinstance(report, Session) else report  # type: ignore[arg-type]
-    return write_report(page, output_path)
-
-
-def write_progress_report(
-    report: Sequence[SessionResults] | ProgressReport, output_path: Path, **context: object
-) -> Path:
-    """Write the report over sessions as PDF.
-
-    ``context`` are the arguments of :func:`build_progress_report` if results are given. Raises the faults of
-    :func:`write_report`.
-    """
-    page = report if isinstance(report, ProgressReport) else build_progress_report(report, **context)  # type: ignore[arg-type]
-    return write_report(page, output_path)
 
 
 def build_progress_report(

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date, timedelta
 from functools import partial
+from typing import ClassVar
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPen, QPolygonF, QTransform
@@ -14,6 +15,7 @@ from PySide6.QtWidgets import QLayout, QVBoxLayout
 
 from carpus.core.model.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg
+from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.types import Side
 from carpus.core.records.values import HomePlan
 from carpus.core.results.progress import Goals, compare_ranges, compute_progress, goal_measure
@@ -70,10 +72,6 @@ class HomeProgress:
     has_improved: bool
 
 
-def _kind() -> str:
-    return tr("home")
-
-
 @dataclass(frozen=True, slots=True)
 class HomeReport(DerivedReport):
     """Home exercise sheet; never with a diagnosis.
@@ -82,6 +80,7 @@ class HomeReport(DerivedReport):
     patient's.
     """
 
+    kind: ClassVar[Phrase] = phrase("home")
     tasks: tuple[HomeTask, ...]
     day: date
     next_appointment: date | None = None
@@ -104,10 +103,6 @@ class HomeReport(DerivedReport):
             self.note,
             self.language,
         )
-
-    @property
-    def kind(self) -> str:
-        return _kind()
 
     def head(self, number: str) -> QLayout:
         return _head(self, number)

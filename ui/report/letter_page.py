@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import date
+from typing import ClassVar
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLayout, QVBoxLayout
 
+from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
 from carpus.ui.kit.cells import TableColumn, cell_text
@@ -45,22 +47,15 @@ MAX_ADDRESS_LINES, MAX_ADDRESS_LENGTH = 6, 80
 SIZE_PT = 10.0
 
 
-def _kind() -> str:
-    return tr("letter")
-
-
 @dataclass(frozen=True, slots=True)
 class LetterReport(DerivedReport):
     """Letter made of a session report; ``printed_patient`` is the patient whose real name is printed."""
 
+    kind: ClassVar[Phrase] = phrase("letter")
     recipient: str
     day: date
     printed_patient: Patient | None = None
     language: str = ""
-
-    @property
-    def kind(self) -> str:
-        return _kind()
 
     def head(self, number: str) -> None:
         return None

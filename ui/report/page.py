@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
 
+from carpus.core.model.phrase import Phrase
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.core.results.session_results import SessionResults
@@ -274,7 +275,9 @@ def _watermark_words() -> str:
 
 
 class Report(Protocol):
-    """Report that can be shown, printed and saved."""
+    """Report that can be shown, printed and saved; its kind in a word is for the file name."""
+
+    kind: ClassVar[Phrase]
 
     @property
     def form(self) -> ReportForm: ...
@@ -282,10 +285,6 @@ class Report(Protocol):
     @property
     def language(self) -> str:
         """Language by two letters; empty for the window's."""
-
-    @property
-    def kind(self) -> str:
-        """Kind in a word, for the file name."""
 
     @property
     def pseudonym(self) -> str: ...

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 from PySide6.QtWidgets import QLayout, QVBoxLayout
 
 from carpus.core.measures.manual_measurements import ManualChange, ManualValue, MeasureKey
+from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.records.values import Patient
 from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import paint_progress_chart
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import Cell, TableColumn
+from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn
 from carpus.ui.kit.layouts import STRETCH, Part
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.kit.translate import tr
+from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.report.page import (
     CHART,
     PaintedPart,
@@ -34,13 +36,13 @@ from carpus.ui.report.page import (
 from carpus.ui.words.manual_values import change_words, day_words, find_changes, full_name, verdict_words
 from carpus.ui.words.progress import (
     change_line,
+    comparability_lines,
+    compared_words,
     comparison_name,
-    exclusion_words,
     headline,
-    uncertainty_words,
     value_pair,
 )
-from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
+from carpus.ui.words.verdicts import error_limit_words, verdict_word
 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MAX_EXCLUDED = 4
@@ -51,18 +53,12 @@ CHANGE_COLUMNS = (TableColumn(MEDIUM), TableColumn(SEMIBOLD), TableColumn(), Tab
 MANUAL_COLUMNS = (TableColumn(MEDIUM), TableColumn(), TableColumn(SEMIBOLD, is_right_aligned=True))
 
 
-def _kind() -> str:
-    return tr("progress")
-
-
-def _title() -> str:
-    return tr("Progress report")
-
-
 @dataclass(frozen=True, slots=True)
 class ProgressReport:
     """Report over the sessions of one exercise and hand."""
 
+    kind: ClassVar[Phrase] = phrase("progress")
+    title: ClassVar[Phrase] = phrase("Progress report")
     progress: Progress
     pseudonym: str
     printed_patient: Patient | None = None
@@ -77,12 +73,8 @@ class ProgressReport:
     def sessions(self) -> tuple[SessionResults, ...]:
         return tuple(point.results for point in self.progress.points)
 
-    @property
-    def kind(self) -> str:
-        return _kind()
-
     def head(self, number: str) -> QLayout:
-        return exercise_head(self, _title(), number)
+        return exercise_head(self, translate_phrase(self.title), number)
 
     def pages(self) -> list[QVBoxLayout]:
         """Return the page, and all manual measurements if there are more than it has room for."""
@@ -135,23 +127,17 @@ def provenance_words(made_by: str, sessions: Sequence[SessionResults]) -> str:
 
 
 def _changes(progress: Progress) -> list[Part]:
-    first, last = progress.reference, progress.current
-    if first is None or last is None or not progress.comparisons:
+    if not (aside := compared_words(progress)):
         return []
-    days = tr("{first} and {last}").format(
-        first=numbers.format_distinct_day(first.when, last.when),
-        last=numbers.format_distinct_day(last.when, first.when),
-    )
-    counts = tr("{before} and {after} repetitions").format(before=first.repetition_count, after=last.repetition_count)
     rows = [
         (
             comparison_name(item, progress.comparisons), value_pair(item), change_line(item),
-            Cell(verdict_word(item.verdict), SEMIBOLD, verdict_token(item.verdict)),
+            Cell(verdict_word(item.verdict), SEMIBOLD, VERDICT_TOKENS.get(item.verdict, "text2")),
         )
         for item in progress.comparisons
     ]  # fmt: skip
     shown = table(CHANGE_COLUMNS, (), rows)
-    return [column(section_title(tr("First to last session"), f"{days} · {counts}"), shown, gap=2.0)]
+    return [column(section_title(tr("First to last session"), aside), shown, gap=2.0)]
 
 
 def _manual_changes(progress: Progress) -> list[Part]:
@@ -198,13 +184,6 @@ def _manual_pages(report: ProgressReport) -> list[QVBoxLayout]:
 
 
 def _comparability(progress: Progress) -> QLayout:
-    unfair = [exclusion_words(point, progress) for point in progress.points if not point.is_comparable]
-    doubts = [words for point in progress.points if (words := uncertainty_words(point, progress))]
-    lines = [paragraph(words) for words in unfair[:MAX_EXCLUDED]]
-    lines += [paragraph(words, token="warn") for words in doubts[:MAX_EXCLUDED]]
-    if not unfair:
-        lines.append(paragraph(tr("All sessions used the same set-up.")))
-    if once := duplicate_result_words(progress.earlier_results):
-        lines.append(paragraph(once))
+    lines = [paragraph(words, token=token) for words, token in comparability_lines(progress, MAX_EXCLUDED)]
     words = f"{tr('± is the SD between repetitions.')} {error_limit_words(progress.study)}"
     return column(section_title(tr("Comparability")), *lines, paragraph(words, 8.0, REGULAR, "text2"), gap=2.0)

@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date
+from typing import ClassVar
 
-from PySide6.QtWidgets import QLayout, QVBoxLayout
+from PySide6.QtWidgets import QLayout, QVBoxLayout, QWidget
 
 from carpus.core.measures.manual_measurements import ManualValue
-from carpus.core.model.phrase import phrase
+from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.types import Side
 from carpus.core.records.values import Patient
 from carpus.core.results.motion_curves import MotionCurves
@@ -18,12 +19,13 @@ from carpus.core.results.progress import compare_ranges
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.valid_data import JointCurves, WristCurves
-from carpus.ui.charts.session import SessionPlot
+from carpus.ui.charts.session import FLEXION_KINDS, HandPlot, SessionPlot
 from carpus.ui.kit import numbers
+from carpus.ui.kit.card import ColorFill
+from carpus.ui.kit.cells import cell_text
 from carpus.ui.kit.layouts import STRETCH, Part
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
-from carpus.ui.kit.translate import to_mid_sentence, tr
-from carpus.ui.report.hand_section import finger_curve_section, finger_section, wrist_section
+from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.report.motion_page import motion_page
 from carpus.ui.report.page import (
     BODY_WIDTH_PT,
@@ -41,15 +43,17 @@ from carpus.ui.report.page import (
     section_title,
     session_chart_part,
     table,
+    to_layout_units,
     value_rows,
 )
 from carpus.ui.words import terms
 from carpus.ui.words.active_passive import build_active_passive
-from carpus.ui.words.fingers import find_main_ranges
+from carpus.ui.words.finger_angles import KIND_TOKENS, kind_name
+from carpus.ui.words.fingers import find_main_ranges, finger_table, limitation_words
 from carpus.ui.words.identity import to_person
 from carpus.ui.words.manual_values import day_words
 from carpus.ui.words.progress import correction_words
-from carpus.ui.words.ranges import range_table, reference_words, repetition_words
+from carpus.ui.words.ranges import mean_words, range_table, reference_words, repetition_words
 from carpus.ui.words.session import (
     hand_summary,
     method_words,
@@ -64,18 +68,12 @@ COMMENT_PT = 9.0
 MAX_COMMENT_LINES, LINES_ON_A_PAGE = 6, 52
 
 
-def _kind() -> str:
-    return tr("report")
-
-
-def _title() -> str:
-    return tr("Session report")
-
-
 @dataclass(frozen=True, slots=True)
 class SessionReport:
     """Report of one session."""
 
+    kind: ClassVar[Phrase] = phrase("report")
+    title: ClassVar[Phrase] = phrase("Session report")
     results: SessionResults
     curves: WristCurves
     markers: int
@@ -110,12 +108,8 @@ class SessionReport:
     def sessions(self) -> tuple[SessionResults, ...]:
         return (self.results,)
 
-    @property
-    def kind(self) -> str:
-        return _kind()
-
     def head(self, number: str) -> QLayout:
-        return exercise_head(self, _title(), number)
+        return exercise_head(self, translate_phrase(self.title), number)
 
     def pages(self) -> list[QVBoxLayout]:
         """Return the pages of all sections that have content and are not excluded."""
@@ -173,12 +167,12 @@ def _first_page(report: SessionReport) -> QVBoxLayout:
     parts.append(paragraph(summed_up(results, report.previous, report.first), 10.0, SEMIBOLD))
     if form.includes("table"):
         is_hand, sessions = report.joints is not None, (results, report.previous, report.other_hand)
-        parts += finger_section(*sessions) if is_hand else _range_table(report)
+        parts += _finger_section(*sessions) if is_hand else _range_table(report)
         parts += _active_passive(report)
-        parts += wrist_section(results) if is_hand else []
+        parts += _wrist_section(results) if is_hand else []
     if form.includes("curves"):
         parts += (
-            _curves(report) if report.joints is None else finger_curve_section(report.curves, report.joints, results)
+            _curves(report) if report.joints is None else _finger_curve_section(report.curves, report.joints, results)
         )
     parts += [STRETCH, *_boxes(report)]
     if report.manual_values and form.includes("by_hand"):
@@ -239,13 +233,11 @@ def _facts(report: SessionReport) -> list[Part]:
         session = tr("active and passive") if results.repetition_count else tr("passive")
     if report.session_number:
         session = f"{numbers.format_ordinal(report.session_number)}, {session}"
-    handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(
-        report.dominance, ""
-    )
+    hand = to_mid_sentence(terms.side_name(results.side))
     pairs = [
         (tr("Date"), numbers.format_date_time(results.when)),
         (tr("Session"), session),
-        (tr("Hand"), ", ".join(part for part in (to_mid_sentence(terms.side_name(results.side)), handed) if part)),
+        (tr("Hand"), ", ".join(filter(None, (hand, terms.hand_dominance(report.dominance))))),
         (tr("Length"), numbers.format_clock(results.duration_s + 0.5)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
@@ -338,6 +330,50 @@ def _foot(report: SessionReport) -> list[Part]:
     parts.append(tr("smoothed") if results.is_smoothed else tr("live values, not smoothed"))
     origin = paragraph(" · ".join(parts), 8.0, REGULAR, "text2")
     return [rule(), column(paragraph(how, 8.0, REGULAR, "text2"), legal_line(), origin, gap=3.0)]
+
+
+def _finger_section(
+    results: SessionResults, previous: SessionResults | None, other_hand: SessionResults | None
+) -> list[Part]:
+    """Return the table of the fingers and what occlusion limited."""
+    columns, heads, rows = finger_table(results, previous, other_hand)
+    shown = table(columns, [cell_text(head) for head in heads], rows, pitch=2.0)
+    words = limitation_words(results)
+    below = [paragraph(words, 8.0)] if words else []
+    return [
+        column(section_title(tr("Range of motion of the fingers"), repetition_words(results)), shown, *below, gap=2.0)
+    ]
+
+
+def _wrist_section(results: SessionResults) -> list[Part]:
+    """Return the wrist's three arcs in one line."""
+    arcs = [
+        (
+            line(
+                paragraph(terms.arc_name(row.wrist_angle), 8.5, REGULAR, "text2"),
+                6.0,
+                (paragraph(mean_words(row), 9.0, SEMIBOLD), 1),
+            ),
+            1,
+        )
+        for row in results.wrist_ranges
+        if row.quantity == "arc"
+    ]
+    shown = line(*arcs) if arcs else paragraph(tr("not visible"), 8.5, REGULAR, "text2")
+    return [column(section_title(tr("Wrist"), tr("total arcs over the same period")), shown, rule(), gap=2.0)]
+
+
+def _finger_curve_section(curves: WristCurves, joints: JointCurves, results: SessionResults) -> list[Part]:
+    """Return the flexion curves of every finger."""
+    key: list[QWidget | float] = []
+    for row in FLEXION_KINDS:
+        swatch = ColorFill(PAPER, KIND_TOKENS[row])
+        swatch.setFixedSize(*to_layout_units(10.0, 1.6))
+        name = tr("PIP (thumb: palmar abduction)") if row == "middle" else kind_name(row)
+        key += [swatch, 4.0, label(name, 8.5, REGULAR, "text2"), 8.0]
+    key.append(label(tr("dashed: occluded; hatched: lost"), 8.5, REGULAR, "text2"))
+    plot = HandPlot(curves, results.exercise, results.repetitions, -1, joints=joints)
+    return [section_title(tr("Finger flexion over time"), *key), session_chart_part(plot, 140.0, 220.0)]
 
 
 SECTIONS = (

@@ -16,7 +16,7 @@ from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
 from carpus.ui.words.finger_angles import find_finger_angle
 from carpus.ui.words.marker_words import long_finger_name
-from carpus.ui.words.verdicts import difference_words, reason_words
+from carpus.ui.words.verdicts import difference_words, duplicate_result_words, reason_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:
@@ -168,6 +168,31 @@ def exclusion_words(point: ProgressPoint, progress: Progress) -> str:
         tr("{day}: {reasons}. Excluded (shown as an open circle).") if has_ring else tr("{day}: {reasons}. Excluded.")
     )
     return pattern.format(day=day, reasons=", ".join(reasons))
+
+
+def compared_words(progress: Progress) -> str:
+    """Return days and repetitions of the sessions that are compared; empty without any."""
+    first, last = progress.reference, progress.current
+    if first is None or last is None or not progress.comparisons:
+        return ""
+    days = tr("{first} and {last}").format(
+        first=numbers.format_distinct_day(first.when, last.when),
+        last=numbers.format_distinct_day(last.when, first.when),
+    )
+    counts = tr("{before} and {after} repetitions").format(before=first.repetition_count, after=last.repetition_count)
+    return f"{days} · {counts}"
+
+
+def comparability_lines(progress: Progress, most: int | None = None) -> list[tuple[str, str]]:
+    """Return text and colour: ``most`` exclusions and doubts, or that all sessions were set up alike."""
+    unfair = [exclusion_words(point, progress) for point in progress.points if not point.is_comparable]
+    doubts = [words for point in progress.points if (words := uncertainty_words(point, progress))]
+    lines = [(words, "text") for words in unfair[:most]] + [(words, "warn") for words in doubts[:most]]
+    if not unfair:
+        lines.append((tr("All sessions used the same set-up."), "text"))
+    if once := duplicate_result_words(progress.earlier_results):
+        lines.append((once, "text"))
+    return lines
 
 
 def correction_words(results: SessionResults) -> str:

@@ -10,12 +10,6 @@ from carpus.core.model.phrase import Phrase, phrase
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr, translate_phrase
 
-
-def verdict_token(verdict: str) -> str:
-    """Return the colour of a verdict: green and red only beyond the measurement error."""
-    return {"improved": "good", "worse": "bad"}.get(verdict, "text2")
-
-
 _VERDICTS: Mapping[str, Phrase] = {
     "improved": phrase("improved"), "worse": phrase("worse"), "no_change": phrase("no change beyond MDC"),
     "not_judged": phrase("not assessed"),

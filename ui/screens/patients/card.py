@@ -15,6 +15,7 @@ from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import ENTER_KEY, Button
 from carpus.ui.kit.card import Card, Separator
+from carpus.ui.kit.cells import VERDICT_TOKENS
 from carpus.ui.kit.layouts import STRETCH, ScrollArea, clear_layout, column_layout, fill, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.kit.theme import Theme
@@ -24,7 +25,7 @@ from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import MeasureWithChange, PatientCard
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle, progress_measure_name
-from carpus.ui.words.verdicts import change_since_first, duplicate_result_words, verdict_token
+from carpus.ui.words.verdicts import change_since_first, duplicate_result_words
 
 PHOTO_MIN_HEIGHT_PX, DIAGNOSIS_PX = 680, 100
 MIN_SUMMARY_PX = 92
@@ -229,7 +230,7 @@ class _ResultRow(QWidget):
             value = f"≥{numbers.NARROW_GAP}{value}" if measure.is_lower_bound else value
         row.addWidget(Text(theme, value, 16, SEMIBOLD))
         words = "" if change is None else change_since_first(change.verdict, change.difference_deg)
-        token = "text2" if change is None else verdict_token(change.verdict)
+        token = "text2" if change is None else VERDICT_TOKENS.get(change.verdict, "text2")
         since = Text(theme, words, 12, MEDIUM, token, wrap=True)
         since.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(since, 1)

@@ -17,6 +17,7 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, Separator
+from carpus.ui.kit.cells import VERDICT_TOKENS
 from carpus.ui.kit.field import Combo
 from carpus.ui.kit.keys import bind_screen_keys, mnemonic_key
 from carpus.ui.kit.layouts import (
@@ -39,13 +40,14 @@ from carpus.ui.words.fingers import progress_choices, progress_keys
 from carpus.ui.words.manual_values import day_words, find_changes
 from carpus.ui.words.progress import (
     change_line,
+    comparability_lines,
+    compared_words,
     comparison_name,
-    exclusion_words,
     headline,
     uncertainty_words,
     value_pair,
 )
-from carpus.ui.words.verdicts import duplicate_result_words, error_limit_words, verdict_token, verdict_word
+from carpus.ui.words.verdicts import error_limit_words, verdict_word
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.data_folder import DataFolder
@@ -244,19 +246,12 @@ class ProgressScreen(FittedWidget):
     def _fill_table(self) -> None:
         clear_layout(self._change_card.body)
         body, theme = self._change_card.body, self._theme
-        first, last = self.progress.reference, self.progress.current
-        self._change_card.setVisible(bool(self.progress.comparisons))
-        if first is None or last is None or not self.progress.comparisons:
+        words = compared_words(self.progress)
+        self._change_card.setVisible(bool(words))
+        if not words:
             return
         body.addWidget(Text(theme, self.tr("First to last session"), 16, SEMIBOLD))
-        days = self.tr("{first} and {last}").format(
-            first=numbers.format_distinct_day(first.when, last.when),
-            last=numbers.format_distinct_day(last.when, first.when),
-        )
-        counts = self.tr("{before} and {after} repetitions").format(
-            before=first.repetition_count, after=last.repetition_count
-        )
-        body.addWidget(caption(theme, f"{days} · {counts}", wrap=True))
+        body.addWidget(caption(theme, words, wrap=True))
         for item in self.progress.comparisons:
             body.addWidget(Separator(theme))
             body.addWidget(_ComparisonRow(theme, item, self.progress.comparisons))
@@ -279,20 +274,14 @@ class ProgressScreen(FittedWidget):
     def _fill_comparability(self) -> None:
         clear_layout(self._comparability_card.body)
         body, theme = self._comparability_card.body, self._theme
-        unfair = [point for point in self.progress.points if not point.is_comparable]
-        doubts = [words for point in self.progress.points if (words := uncertainty_words(point, self.progress))]
-        self._comparability_card.setVisible(len(self.progress.points) > 1 or bool(unfair or doubts))
+        points = self.progress.points
+        is_fair = all(point.is_comparable and not uncertainty_words(point, self.progress) for point in points)
+        self._comparability_card.setVisible(len(points) > 1 or not is_fair)
         title = StateText(theme, 16, SEMIBOLD, 20)
-        title.show_state("warn" if unfair or doubts else "good", self.tr("Comparability"), token="text")
+        title.show_state("good" if is_fair else "warn", self.tr("Comparability"), token="text")
         body.addWidget(title)
-        for point in unfair:
-            body.addWidget(Text(theme, exclusion_words(point, self.progress), 14, wrap=True))
-        for words in doubts:
-            body.addWidget(Text(theme, words, 14, REGULAR, "warn", wrap=True))
-        if not unfair:
-            body.addWidget(Text(theme, self.tr("All sessions used the same set-up."), 14, wrap=True))
-        if once := duplicate_result_words(self.progress.earlier_results):
-            body.addWidget(Text(theme, once, 14, wrap=True))
+        for words, token in comparability_lines(self.progress):
+            body.addWidget(Text(theme, words, 14, REGULAR, token, wrap=True))
         body.addWidget(Text(theme, error_limit_words(self.progress.study), 14, REGULAR, "text2", wrap=True))
 
 
@@ -301,7 +290,7 @@ class _ComparisonRow(QWidget):
         super().__init__()
         word = StateText(theme, 14, SEMIBOLD, 16)
         state = {"improved": "good", "worse": "bad"}.get(item.verdict, "none")
-        word.show_state(state, verdict_word(item.verdict), token=verdict_token(item.verdict))  # type: ignore[arg-type]
+        word.show_state(state, verdict_word(item.verdict), token=VERDICT_TOKENS.get(item.verdict, "text2"))  # type: ignore[arg-type]
         words = Text(theme, change_line(item), 12, MEDIUM, "text2", wrap=True)  # two lines where the text is large
         words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         top = row_layout(Text(theme, comparison_name(item, comparisons), 14, REGULAR, "text2"), STRETCH, word, gap=8)

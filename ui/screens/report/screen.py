@@ -20,6 +20,7 @@ from carpus.ui.kit.keys import bind_screen_keys
 from carpus.ui.kit.layouts import RING_PX, STRETCH, column_layout, fill, row_layout, scroll_column
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page, Report, layout_pages
@@ -248,10 +249,11 @@ class ReportScreen(QWidget):
 def default_file_name(report: Report) -> str:
     """Return ``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: pseudonym, time and content."""
     name, when = report.pseudonym.replace(" ", "-"), max(results.when for results in report.sessions)
+    kind = translate_phrase(report.kind)
     if isinstance(report, ProgressReport):
-        return f"{name}_{when:%Y-%m-%d}_{report.kind}.pdf"
+        return f"{name}_{when:%Y-%m-%d}_{kind}.pdf"
     what = report.sessions[0].exercise.id.lower().replace("_", "-")
-    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{report.kind}.pdf"
+    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"
 
 
 def _write_file(content: bytes, target: Path, may_replace: bool) -> Path:
