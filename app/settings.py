@@ -24,7 +24,7 @@ import platformdirs
 
 from carpus.core.model.errors import CarpusFault, SettingsInvalid
 from carpus.core.model.phrase import phrase
-from carpus.core.model.setting_values import NOT_IN_FILE, convert_value, expand_home, settable_names
+from carpus.core.model.setting_values import FORMER_NAMES, NOT_IN_FILE, convert_value, expand_home, settable_names
 from carpus.core.pipeline.live_values import LiveSettings, StartMode
 from carpus.core.platform.durable import replace_text, write_fault
 from carpus.core.records.values import BackupSettings
@@ -286,22 +286,23 @@ def _build_settings(values: Values, file: str) -> Settings:
 def _read_own_settings(path: Path) -> Values:
     """Read and check the user's file; empty if there is none."""
     try:
-        own = _drop_obsolete(_parse_toml(str(path), path.read_bytes()), path) if path.exists() else {}
+        own = _update_names(_parse_toml(str(path), path.read_bytes()), path) if path.exists() else {}
     except OSError as cause:
         raise SettingsInvalid(path, cause.strerror or phrase("cannot be read")) from cause
     _build_settings(own, str(path))  # faults name the file they are in
     return own
 
 
-def _drop_obsolete(values: Values, path: Path, where: str = "") -> Values:
+def _update_names(values: Values, path: Path, where: str = "") -> Values:
+    """Drop settings that are not used any more, and give the others their present names."""
     kept: dict[str, Any] = {}
     for name, value in values.items():
         place = f"{where}{name}"
         if place in OBSOLETE:
             logger.info("The setting %s in %s is not used any more", place, path)
         elif not isinstance(value, Mapping):
-            kept[name] = value
-        elif (inner := _drop_obsolete(value, path, f"{place}.")) or not value:
+            kept[FORMER_NAMES.get(place, name)] = value
+        elif (inner := _update_names(value, path, f"{place}.")) or not value:
             kept[name] = inner
     return kept
 

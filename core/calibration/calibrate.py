@@ -86,12 +86,12 @@ class NeutralCapture:
 class MeasurementNoise:
     """Noise of one frame's marker centres and depths on a still hand; NaN with too few frames.
 
-    ``depth_ratio`` is the depth noise over that of the sensor model, ``marker_radius_m`` the palm markers' radius.
+    ``depth_noise_ratio`` is the depth noise over that of the sensor model, ``marker_radius_m`` that of palm markers.
     """
 
     pixel_sd_px: float = float("nan")
     depth_sd_m: float = float("nan")
-    depth_ratio: float = float("nan")
+    depth_noise_ratio: float = float("nan")
     marker_radius_m: float = float("nan")
 
 
@@ -378,8 +378,8 @@ def measure_hand(
     verdict = Verdict(residual_mm, hand_length_mm, tilt_deg, float(origin_cam[2]), capture.frame_count, ())
     usual_m = float(np.median(depth_m[seen]))
     plan = plan_view(camera.backproject(pixel, np.where(seen, depth_m, usual_m)))
-    near_m = max(settings.least_distance_m, camera.sensor.nearest_m)
-    findings += _check_calibration(clicks, verdict, plan, replace(settings, least_distance_m=near_m))
+    near_m = max(settings.min_distance_m, camera.sensor.nearest_m)
+    findings += _check_calibration(clicks, verdict, plan, replace(settings, min_distance_m=near_m))
     calibration = Calibration(
         clicks,
         marker_w0_m,
@@ -460,20 +460,20 @@ def _check_calibration(
             out.append(CalibrationFinding("misnamed", (names_at_fault.misplaced,)))
         elif names_at_fault is not None:
             out.append(CalibrationFinding("swapped", sum(names_at_fault.swapped, ())))
-    for marker in np.flatnonzero(verdict.residual_mm > settings.most_residual_mm):
+    for marker in np.flatnonzero(verdict.residual_mm > settings.max_residual_mm):
         out.append(
             CalibrationFinding(
-                "residual", (names[marker],), float(verdict.residual_mm[marker]), settings.most_residual_mm, "mm"
+                "residual", (names[marker],), float(verdict.residual_mm[marker]), settings.max_residual_mm, "mm"
             )
         )
     low, high = settings.hand_length_mm
     if not low <= verdict.hand_length_mm <= high:
         limit = low if verdict.hand_length_mm < low else high
         out.append(CalibrationFinding("hand_length", (), verdict.hand_length_mm, limit, "mm"))
-    if verdict.tilt_deg > settings.most_tilt_deg:
-        out.append(CalibrationFinding("tilt", (), verdict.tilt_deg, settings.most_tilt_deg, "deg"))
-    if verdict.distance_m < settings.least_distance_m:
-        out.append(CalibrationFinding("distance", (), verdict.distance_m, settings.least_distance_m, "m"))
+    if verdict.tilt_deg > settings.max_tilt_deg:
+        out.append(CalibrationFinding("tilt", (), verdict.tilt_deg, settings.max_tilt_deg, "deg"))
+    if verdict.distance_m < settings.min_distance_m:
+        out.append(CalibrationFinding("distance", (), verdict.distance_m, settings.min_distance_m, "m"))
     if verdict.frames_used < MIN_NEUTRAL_FRAMES:
         out.append(CalibrationFinding("few_frames", (), verdict.frames_used, MIN_NEUTRAL_FRAMES, "frames"))
     return out

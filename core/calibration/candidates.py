@@ -61,7 +61,7 @@ def find_marker_candidates(frame: Frame, camera: Camera, settings: DetectionSett
         return Detections.none()
     marker_appearance, _ = learn_appearance(frame, spots, camera, settings)
     # Cloth of the paper's hue has more spots than there are markers, which must not crowd these out.
-    found = Detector(marker_appearance, camera, replace(settings, most_blobs=MAX_CANDIDATES)).detect(frame)
+    found = Detector(marker_appearance, camera, replace(settings, max_blobs=MAX_CANDIDATES)).detect(frame)
     kept = is_paper(found.pixel, frame, hsv, camera, settings)
     return found.subset(kept) if np.count_nonzero(kept) >= MIN_CANDIDATES else Detections.none()
 

@@ -9,12 +9,22 @@ from dataclasses import dataclass
 class CalibrationSettings:
     """Limits of the hand calibration.
 
-    ``still_s`` is the longest time averaged, ``least_distance_m`` that of the wrist paper (II-C), ``most_tilt_deg`` of
-    the palm to the image, ``hand_length_mm`` of a child of six to a tall man.
+    Attributes
+    ----------
+    still_s : float
+        Longest time over which the neutral pose is averaged while the hand is still.
+    min_distance_m : float
+        From camera to hand; wrist paper, II-C.
+    max_tilt_deg : float
+        Of the back of the hand to the image plane.
+    max_residual_mm : float
+        Of a marker from its expected position.
+    hand_length_mm : tuple of float
+        Shortest and longest plausible hand: a child of six to a tall man.
     """
 
     still_s: float = 0.5
-    least_distance_m: float = 0.6
-    most_tilt_deg: float = 15.0
-    most_residual_mm: float = 4.0
+    min_distance_m: float = 0.6
+    max_tilt_deg: float = 15.0
+    max_residual_mm: float = 4.0
     hand_length_mm: tuple[float, float] = (110.0, 225.0)

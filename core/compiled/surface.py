@@ -57,7 +57,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     cx: double = camera.cx_px
     cy: double = camera.cy_px
     huber: double = settings.huber_m
-    most: double = settings.most_m
+    most: double = settings.max_residual_m
 
     # Of each reading its place in W0, height and weight, and by how much turns and shifts bring it off its plane.
     place: double[:, ::1] = np.empty((count, 3))
@@ -85,7 +85,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     rotation[:] = started
     position[:] = state[POSITION : POSITION + 3]
     used: Py_ssize_t = 0
-    for _ in range(settings.steps):
+    for _ in range(settings.iterations):
         square[:] = 0.0
         side[:] = 0.0
         used = 0
@@ -108,7 +108,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
                 side[a] += row[a] * w * h
                 for b in range(3):
                     square[a, b] += row[a] * w * row[b]
-        if used < settings.least:
+        if used < settings.min_readings:
             return None
         invert(square, inverse)
         x = inverse[0, 0] * side[0] + inverse[0, 1] * side[1] + inverse[0, 2] * side[2]
@@ -128,7 +128,7 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     # Of those used, J' W times turns and shifts of the whole pose, and J' W E W J for errors E of unit variance, of
     # which two readings share a part as far as their patches, as wide as one, overlap.
     patch: double = sensor.patch_px
-    shared: double = 1.0 if sensor.averages else settings.shared
+    shared: double = 1.0 if sensor.averages else settings.shared_variance_share
     near: double[:, ::1] = np.empty((used, 5))  # u and v in patches, and the row of W J
     of_pose: double[:, ::1] = np.zeros((3, 6))
     alike: double[:, ::1] = square
@@ -166,14 +166,14 @@ def measure_surface(estimate: Any, samples: Any, surface: Any, view: Any, settin
     ordered: double[::1] = np.sort(samples.depth_m)
     depth_m = 0.5 * (ordered[(count - 1) // 2] + ordered[count // 2])
     reading_m: double = sensor.reading.fixed_m + sensor.reading.square_per_m * depth_m * depth_m
-    reading_m = max(settings.reading_per_m * depth_m * depth_m, reading_m)
-    scatter2: double = settings.goes_on * max(square_sum / weights, reading_m * reading_m)
+    reading_m = max(settings.min_reading_sd_per_m * depth_m * depth_m, reading_m)
+    scatter2: double = settings.persistence_factor * max(square_sum / weights, reading_m * reading_m)
     # What stays and changes slowly over the picture tilts and lifts the surface as a whole.
     stays_px: double = sensor.stays_px
     up_m: double = sensor.stays.fixed_m + sensor.stays.square_per_m * depth_m * depth_m if stays_px else 0.0
     turn_rad = up_m * fx / (max(stays_px, 1.0) * depth_m)
     turn_sd: double = settings.turn_sd_rad
-    up_sd: double = settings.up_sd_m
+    up_sd: double = settings.height_sd_m
     multiply(inverse, alike, before)
     multiply(before, inverse, spread)
     for a in range(3):

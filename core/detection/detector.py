@@ -57,8 +57,8 @@ class Detector:
         self._camera = camera
         self._settings = settings
         self._table, self._is_paper = _build_color_table(appearance), classify_paper_colors(appearance)
-        self._min_area = settings.least_area * appearance.min_area_share
-        self._max_area = settings.most_area * appearance.max_area_share
+        self._min_area = settings.min_area_ratio * appearance.min_area_share
+        self._max_area = settings.max_area_ratio * appearance.max_area_share
 
     def compute_search_region(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Return the rectangle that holds all predicted discs with their uncertainty.
@@ -98,8 +98,8 @@ class Detector:
         )
         if not blobs.label.size:
             return Detections.none()
-        if blobs.label.size > self._settings.most_blobs:
-            blobs = blobs.subset(np.argsort(-blobs.area_px, kind="stable")[: self._settings.most_blobs])
+        if blobs.label.size > self._settings.max_blobs:
+            blobs = blobs.subset(np.argsort(-blobs.area_px, kind="stable")[: self._settings.max_blobs])
         windows = BlobWindows(blobs, get_stencil(median(blobs.radius_px.tolist()), sensor.edge_px))
         similarity, skin_share = windows.compare_colors(hsv, self._table)
         centre, area = windows.locate_centres(color)
@@ -110,7 +110,7 @@ class Detector:
             depth, depth_sd = windows.read_depths(raw, frame.depth_unit_m, sensor)
         # Those that look like a disc and lie on skin.
         return Detections(centre, depth, depth_sd, area, similarity).subset(
-            (similarity >= self._appearance.min_similarity) & (skin_share >= self._settings.skin_share)
+            (similarity >= self._appearance.min_similarity) & (skin_share >= self._settings.min_skin_share)
         )
 
     def _estimate_radius(self, raw: DepthImage | None, unit_m: float, centre_px: FloatArray) -> FloatArray:

@@ -9,13 +9,20 @@ from dataclasses import dataclass
 class DetectionSettings:
     """Settings of the detection.
 
-    ``marker_radius_m`` of the paper discs; ``skin_share`` of the rim of a blob that must be skin or paper for it to lie
-    on a hand; ``least_area``, ``most_area`` of a blob over that of a disc, relative to those learnt; ``most_blobs`` are
-    reported of a frame.
+    Attributes
+    ----------
+    marker_radius_m : float
+        Radius of the paper markers.
+    min_skin_share : float
+        Share of a blob's rim that must be skin or paper, so that the blob lies on a hand.
+    min_area_ratio, max_area_ratio : float
+        Limits of a blob's area over that of a marker at its depth, relative to the ratios learnt at calibration.
+    max_blobs : int
+        Blobs returned of one frame; the largest are kept.
     """
 
     marker_radius_m: float = 0.006
-    skin_share: float = 0.25
-    least_area: float = 0.12
-    most_area: float = 2.2
-    most_blobs: int = 48
+    min_skin_share: float = 0.25
+    min_area_ratio: float = 0.12
+    max_area_ratio: float = 2.2
+    max_blobs: int = 48

@@ -13,6 +13,38 @@ from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.phrase import phrase
 
 MAX_NUMBER = 1e15
+FORMER_NAMES: Mapping[str, str] = {
+    "live.tracking_waiting": "max_waiting_frames",
+    "live.rows_waiting": "max_waiting_rows",
+    "live.pictures_waiting": "max_waiting_images",
+    "detection.skin_share": "min_skin_share",
+    "detection.least_area": "min_area_ratio",
+    "detection.most_area": "max_area_ratio",
+    "detection.most_blobs": "max_blobs",
+    "calibration.least_distance_m": "min_distance_m",
+    "calibration.most_tilt_deg": "max_tilt_deg",
+    "calibration.most_residual_mm": "max_residual_mm",
+    "tracker.shape_hidden": "shape_bias_share",
+    "tracker.association.least_company": "min_markers_at_depth",
+    "tracker.association.apart_m": "max_depth_error_m",
+    "tracker.association.beam": "beam_width",
+    "tracker.association.consistent": "consistency_probability",
+    "tracker.noise.depth_ratio": "depth_noise_ratio",
+    "tracker.noise.depth_stays_m": "depth_bias_sd_m",
+    "tracker.noise.most_adapted": "max_variance_factor",
+    "tracker.noise.least_adapted": "min_variance_factor",
+    "tracker.fingers.anatomy.depth_stays_m": "depth_bias_sd_m",
+    "tracker.surface.steps": "iterations",
+    "tracker.surface.most_m": "max_residual_m",
+    "tracker.surface.least": "min_readings",
+    "tracker.surface.shared": "shared_variance_share",
+    "tracker.surface.reading_per_m": "min_reading_sd_per_m",
+    "tracker.surface.up_sd_m": "height_sd_m",
+    "tracker.surface.most_nis": "max_nis",
+    "tracker.surface.stays": "persistent_share",
+    "tracker.surface.goes_on": "persistence_factor",
+}
+"""Settings of version 0.2.0 that have another name now, as settings files and sessions store them."""
 NOT_IN_FILE: Mapping[str, bool] = {"in_file": False}
 """Metadata of a field that no settings file sets."""
 

@@ -75,7 +75,7 @@ class LiveSession:
         fps = source.info.nominal_fps if source.info.nominal_fps > 0.0 else 30.0
         self._lock = threading.Lock()
         self._stopping = threading.Event()
-        self._backlog = Backlog(self._settings.tracking_waiting, fps, is_blocking=is_file)
+        self._backlog = Backlog(self._settings.max_waiting_frames, fps, is_blocking=is_file)
         self._frame_mailbox: Mailbox[Frame] = Mailbox()
         self._view_mailbox: Mailbox[TrackedView] = Mailbox()
         self._recent_frames: deque[Frame] = deque(maxlen=RECENT_FRAMES)
@@ -186,12 +186,12 @@ class LiveSession:
         if self.is_recording or self._backlog.is_finishing_recording:
             raise RuntimeError("a recording runs already")
         frame, settings = self._frame_mailbox.peek(), self._settings
-        self._backlog.capacity = compute_capacity(frame, settings.tracking_waiting)
+        self._backlog.capacity = compute_capacity(frame, settings.max_waiting_frames)
         recording = LiveRecording(
             open_session,
             open_frames,
             settings,
-            compute_capacity(frame, settings.pictures_waiting),
+            compute_capacity(frame, settings.max_waiting_images),
             self._report_event,
             is_blocking=self._backlog.is_blocking,
             before_close=before_close,

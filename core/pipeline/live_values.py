@@ -29,12 +29,12 @@ class LiveSettings:
 
     Attributes
     ----------
-    tracking_waiting : int
+    max_waiting_frames : int
         Recorded frames that may wait for the tracker: a minute at half the camera's speed (1.5 GB at 640x480); fewer if
         less than twice that memory is free.
-    rows_waiting : int
+    max_waiting_rows : int
         Results that may wait for the disk, beside those frames (30 s), before the recording ends.
-    pictures_waiting : int
+    max_waiting_images : int
         Frames that may wait for the disk before the raw recording ends; they share memory with those above.
     low_disk_bytes : int
         Free space below which a warning is given once.
@@ -42,14 +42,14 @@ class LiveSettings:
         Session folder, for the free space before a recording.
     """
 
-    tracking_waiting: int = 960
-    rows_waiting: int = 900
-    pictures_waiting: int = 960
+    max_waiting_frames: int = 960
+    max_waiting_rows: int = 900
+    max_waiting_images: int = 960
     low_disk_bytes: int = 1_000_000_000
     folder: Path | None = field(default=None, metadata=NOT_IN_FILE)
 
     def __post_init__(self) -> None:
-        for name in ("tracking_waiting", "rows_waiting", "pictures_waiting"):
+        for name in ("max_waiting_frames", "max_waiting_rows", "max_waiting_images"):
             if not 0 < getattr(self, name) <= 1_000_000:
                 raise ValueError(f"{name} {getattr(self, name)} is not between 0 and 1000000")
 

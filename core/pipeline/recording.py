@@ -72,7 +72,7 @@ class LiveRecording:
             "writing",
             open_session,
             self._write_row,
-            settings.rows_waiting + (0 if is_blocking else settings.tracking_waiting),
+            settings.max_waiting_rows + (0 if is_blocking else settings.max_waiting_frames),
             lambda cause: on_event("recording_failed", cause),
             is_blocking=is_blocking,
         )

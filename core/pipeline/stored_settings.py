@@ -9,7 +9,7 @@ from dataclasses import asdict, is_dataclass
 from typing import Any, NamedTuple, TypeVar
 
 from carpus.core.model.errors import SettingsInvalid
-from carpus.core.model.setting_values import convert_value
+from carpus.core.model.setting_values import FORMER_NAMES, convert_value
 from carpus.core.pipeline.track import TrackSettings
 
 T = TypeVar("T")
@@ -45,8 +45,10 @@ def list_differences(before: TrackSettings, after: TrackSettings) -> list[str]:
 def _parse_settings(kind: type[T], stored: Mapping[str, Any], prefix: str, unknown: list[str]) -> T:
     hints = typing.get_type_hints(kind)
     found: dict[str, Any] = {}
-    for name, value in stored.items():
-        hint, place = hints.get(name), f"{prefix}{name}"
+    for stored_name, value in stored.items():
+        place = f"{prefix}{stored_name}"
+        name = FORMER_NAMES.get(place, stored_name)
+        hint = hints.get(name)
         if hint is None:
             unknown += [place] if value is not None else []
         elif isinstance(hint, type) and is_dataclass(hint) and isinstance(value, Mapping):

@@ -229,7 +229,7 @@ class NeutralNoise:
 
     Attributes
     ----------
-    pixel_sd_px, depth_ratio : float
+    pixel_sd_px, depth_noise_ratio : float
         Standard deviation of a marker's centre; depth noise relative to the sensor's model.
     neutral_ends_s : float
         End of the neutral pose on the recording's clock.
@@ -238,13 +238,13 @@ class NeutralNoise:
     """
 
     pixel_sd_px: float
-    depth_ratio: float
+    depth_noise_ratio: float
     neutral_ends_s: float
     disc_radius_m: float = 0.006
 
     def adapt_settings(self, settings: TrackerSettings) -> TrackerSettings:
         """Return tracker settings with this noise and marker radius."""
-        noise = replace(settings.noise, pixel_sd_px=self.pixel_sd_px, depth_ratio=self.depth_ratio)
+        noise = replace(settings.noise, pixel_sd_px=self.pixel_sd_px, depth_noise_ratio=self.depth_noise_ratio)
         return replace(settings, noise=noise, marker_radius_m=self.disc_radius_m)
 
 
@@ -292,13 +292,13 @@ def describe_source(info: SourceInfo) -> dict[str, Any]:
 def noise_from_neutral(still: MeasurementNoise, neutral_ends_s: float, settings: TrackerSettings) -> NeutralNoise:
     """Return the noise and marker radius at the neutral pose, or the settings' if they are unknown."""
     noise = settings.noise
-    pixel_sd_px, depth_ratio = noise.pixel_sd_px, noise.depth_ratio
+    pixel_sd_px, depth_noise_ratio = noise.pixel_sd_px, noise.depth_noise_ratio
     if np.isfinite(still.pixel_sd_px):
         pixel_sd_px = float(np.hypot(still.pixel_sd_px, PIXEL_MODEL_SD_PX))
-    if np.isfinite(still.depth_ratio):
-        depth_ratio = float(np.clip(still.depth_ratio, *DEPTH_RATIOS))
+    if np.isfinite(still.depth_noise_ratio):
+        depth_noise_ratio = float(np.clip(still.depth_noise_ratio, *DEPTH_RATIOS))
     radius_m = still.marker_radius_m if np.isfinite(still.marker_radius_m) else settings.marker_radius_m
-    return NeutralNoise(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
+    return NeutralNoise(pixel_sd_px, depth_noise_ratio, neutral_ends_s, radius_m)
 
 
 def build_pipeline(

@@ -212,7 +212,7 @@ class HandFilter:
             calibration.rotation_w0_cam,
             calibration.translation_w0_cam_m,
             calibration.marker_position_w0_m,
-            depth_bias_matrix(calibration, settings.shape_hidden),
+            depth_bias_matrix(calibration, settings.shape_bias_share),
         )
         self.readout = Readout(calibration, camera, settings.marker_radius_m)
         # Blobs alone do not tell tissue that rests from a hand that moves; joints that are seen tell when it moves.

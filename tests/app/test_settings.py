@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+import json
+import operator
 import shutil
 import tomllib
 from collections.abc import Callable
@@ -28,9 +31,11 @@ from carpus.app.settings import (
     settings_folder,
     with_data_folder,
 )
+from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.fault_text import format_fault_line
-from carpus.core.model.setting_values import settable_names
+from carpus.core.model.setting_values import FORMER_NAMES, settable_names
+from carpus.core.pipeline.stored_settings import settings_from_json
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.results.report_form import ReportSettings
 
@@ -86,7 +91,7 @@ def test_persons_file_goes_over_defaults_and_leaves_rest(tmp_path: Path) -> None
     assert settings.track.tracker.profile == "slow"
     assert settings.track.tracker.lost_after_s == 2.0
     assert isinstance(settings.track.tracker.lost_after_s, float)
-    assert settings.live.rows_waiting == 800
+    assert settings.live.max_waiting_rows == 800
     usual = Settings().track.tracker
     back: dict[str, Any] = {"profile": usual.profile, "lost_after_s": usual.lost_after_s}
     assert dataclasses.replace(settings.track.tracker, **back) == usual
@@ -101,7 +106,7 @@ def test_persons_file_goes_over_defaults_and_leaves_rest(tmp_path: Path) -> None
         ('[tracker]\nprofile = "fast"\n', "tracker.profile"),
         ("[calibration]\nhand_length_mm = [1.0]\n", "calibration.hand_length_mm"),
         ('[recording]\nkeep_pictures = "yes"\n', "recording.keep_pictures"),
-        ("[live]\nrows_waiting = 1.5\n", "live.rows_waiting"),
+        ("[live]\nrows_waiting = 1.5\n", "live.max_waiting_rows"),
         ("[screen]\ntext_scale = true\n", "screen.text_scale"),
         ("screen = 3\n", "screen"),
     ],
@@ -193,8 +198,8 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     chosen = dict(leaves(tomllib.loads((GOLDEN / f"v0.1-{PREFERENCES_FILE}").read_text(encoding="utf-8"))))
     for place, value in leaves(table):
         kept: Any = found.track if place[0] in TRACKING else found
-        for name in place:
-            kept = getattr(kept, name)
+        for depth, name in enumerate(place):
+            kept = getattr(kept, FORMER_NAMES.get(".".join(place[: depth + 1]), name))
         if place not in chosen:
             assert (list(kept) if isinstance(kept, tuple) else kept) == value, place
     assert found.track.tracker.profile == "slow", "the file says something else than the defaults"
@@ -202,6 +207,18 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     assert (found.recording.folder, found.report.therapist) == ("/home/clinic/Carpus", "AB")
     save_preferences(found, dataclasses.replace(found, lock=LockSettings(5)), tmp_path)
     assert load_settings(tmp_path) == dataclasses.replace(found, lock=LockSettings(5))
+
+
+def test_settings_from_json_former_names_give_the_same_settings() -> None:
+    """A session of 0.2.0 is tracked again with what it was tracked with."""
+    stored = dataclasses.asdict(TrackSettings(detection=DetectionSettings(max_blobs=7)))
+    for former, name in FORMER_NAMES.items():
+        *sections, old_name = former.split(".")
+        if sections[0] in TRACKING:
+            section = functools.reduce(operator.getitem, sections, stored)
+            section[old_name] = section.pop(name)
+    found = settings_from_json(json.dumps({"settings": stored}))
+    assert found == (TrackSettings(detection=DetectionSettings(max_blobs=7)), ())
 
 
 def test_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:

@@ -58,7 +58,7 @@ def test_retracked_session_keeps_its_joints_and_markers(
 
 def test_retracked_session_keeps_settings_and_reports_differences(tmp_path: Path, command: Command) -> None:
     tracker = TrackerSettings(profile="slow", mode_scales=(1.0,), use_depth=False)
-    before = TrackSettings(tracker=tracker, detection=DetectionSettings(least_area=0.2), smooth=False)
+    before = TrackSettings(tracker=tracker, detection=DetectionSettings(min_area_ratio=0.2), smooth=False)
     session = stored(tmp_path / "session.h5", parameters=said_of(before))
     done = command("track", session, "--output", tmp_path / "same.h5")
     assert done.code == 0

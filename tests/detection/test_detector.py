@@ -214,7 +214,7 @@ def test_detector_depth_of_another_size_is_an_error() -> None:
 
 
 def test_detector_too_many_blobs_keeps_the_largest() -> None:
-    detector = Detector(build_detector()._appearance, CAMERA, replace(SETTINGS, most_blobs=4))
+    detector = Detector(build_detector()._appearance, CAMERA, replace(SETTINGS, max_blobs=4))
     extras = [Extra((float(u), float(v)), 3.2, PAPERS["blue"]) for u, v in ((140, 140), (160, 140), (180, 140))]
     found = detector.detect(seen(5, extras=extras), WHOLE)
     assert len(found) == 4
@@ -299,4 +299,4 @@ def test_detection_settings_skin_share_limits_blobs() -> None:
     """With no skin asked for, the disc on the table counts; the rule is the setting's, not hidden."""
     looks, _ = learn(BLUE, np.random.default_rng(23))
     on_table = seen(23, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])
-    assert len(Detector(looks, CAMERA, replace(SETTINGS, skin_share=0.0)).detect(on_table, WHOLE)) == 7
+    assert len(Detector(looks, CAMERA, replace(SETTINGS, min_skin_share=0.0)).detect(on_table, WHOLE)) == 7

@@ -65,7 +65,7 @@ def test_bounded_queue_full_raises_and_keeps_its_items() -> None:
 def test_backlog_full_drops_and_counts_frames() -> None:
     source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
-    with LiveSession(source, LiveSettings(tracking_waiting=8)) as live:
+    with LiveSession(source, LiveSettings(max_waiting_frames=8)) as live:
         live.start_tracking(gated_tracker(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
@@ -210,7 +210,7 @@ def test_recorder_slow_disk_blocks_nothing() -> None:
 def test_recorder_overflow_ends_recording_not_tracking() -> None:
     source, gate = ControlledSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
-    with LiveSession(source, LiveSettings(rows_waiting=9, tracking_waiting=1)) as live:
+    with LiveSession(source, LiveSettings(max_waiting_rows=9, max_waiting_frames=1)) as live:
         live.start_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 1)
@@ -418,7 +418,7 @@ def test_read_free_bytes_missing_folder_is_none(tmp_path: Path) -> None:
 
 def test_live_session_file_loses_no_frame() -> None:
     """A file can wait: the source is far ahead of slow tracking and a slower disk, with little room between them."""
-    settings = LiveSettings(tracking_waiting=2, rows_waiting=2)
+    settings = LiveSettings(max_waiting_frames=2, max_waiting_rows=2)
     stored: list[int] = []
 
     class Slow(FakeSession):
@@ -447,7 +447,7 @@ def test_live_session_file_loses_no_frame() -> None:
 def test_live_session_waiting_file_can_be_stopped() -> None:
     source, gate = ControlledSource(total=50), Gate()
     source.let(60)
-    live = LiveSession(source, LiveSettings(tracking_waiting=2), is_file=True)
+    live = LiveSession(source, LiveSettings(max_waiting_frames=2), is_file=True)
     live.start_tracking(gated_tracker(gate))
     live.start()
     wait_until(lambda: live.counters().frames_waiting == 2)

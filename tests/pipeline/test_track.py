@@ -211,7 +211,7 @@ def test_track_recording_stopped_or_full_disk_leaves_no_output(
 def test_retrack_keeps_header_and_set_up(made: Made, tmp_path: Path) -> None:
     """Where the hand was at the start, what was aimed at, that it was simulated; and a poor verdict stops nothing."""
     aims, start = {"repetitions": 7, "targets_deg": [20.0, None]}, np.radians([0.0, 20.0, 0.0])
-    settings = replace(TrackSettings(), calibration=CalibrationSettings(least_distance_m=2.0), smooth=False)
+    settings = replace(TrackSettings(), calibration=CalibrationSettings(min_distance_m=2.0), smooth=False)
     verdicts: list[Verdict] = []
     first = tmp_path / "s.h5"
     report = track(

@@ -80,7 +80,7 @@ def sound(kind: str, folder: Path) -> Path:
         return folder / "clicks.json"
     if kind == "settings":
         lines = ("[screen]", 'theme = "dark"', "text_scale = 1.25", "[recording]", 'folder = ""', "smooth = true")
-        (folder / "settings.toml").write_text("\n".join((*lines, "[live]", "rows_waiting = 900", "")))
+        (folder / "settings.toml").write_text("\n".join((*lines, "[live]", "max_waiting_rows = 900", "")))
         return folder / "settings.toml"
     with opened(folder / "data") as house:
         key = house.patients.add(Patient("Linden 42", "left", name="A Name", note="a note"))

@@ -29,8 +29,8 @@ def adapt(seconds: float, residual: tuple[float, float, float], dt_s: float = DT
 
 
 def test_adapt_noise_factors_stay_in_bounds() -> None:
-    assert adapt(5.0, (20.0, 20.0, 20.0)) == pytest.approx(np.full(3, NOISE.most_adapted))
-    assert adapt(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.least_adapted))
+    assert adapt(5.0, (20.0, 20.0, 20.0)) == pytest.approx(np.full(3, NOISE.max_variance_factor))
+    assert adapt(5.0, (0.0, 0.0, 0.0)) == pytest.approx(np.full(3, NOISE.min_variance_factor))
     factor = np.array([[2.0, 2.0, 3.0]])
     nothing = np.zeros((1, 3), dtype=bool)
     assert np.array_equal(adapt_noise_factor(factor, np.full((1, 3), 9.0), nothing, DT_S, NOISE), factor)
@@ -41,7 +41,7 @@ def test_adapt_noise_factors_stay_in_bounds() -> None:
 @pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.kind)
 def test_depth_variance_has_scatter_and_bias(sensor: DepthSensor) -> None:
     """Twice the book's scatter is four times its variance; the sensor's pattern and a steep slope come on top."""
-    settings = TrackerSettings(noise=replace(NOISE, depth_ratio=2.0))
+    settings = TrackerSettings(noise=replace(NOISE, depth_noise_ratio=2.0))
     area, steep_m = np.full(2, math.pi * 25.0), 0.002
     book_m, pattern_m = float(sensor.disc_sd_m(np.array(0.7), area[0])), float(sensor.bias_sd_m(np.array(0.7)))
     said_m = np.array([book_m, math.hypot(book_m, steep_m)])

@@ -70,7 +70,7 @@ def compute_nees(error: FloatArray, covariance: FloatArray) -> float:
 def build_settings(**noise: float) -> TrackerSettings:
     """Settings that know the palm's depths to be right, with other choices about noise."""
     settings = RIGID
-    return replace(settings, noise=replace(settings.noise, depth_stays_m=0.0, **noise))
+    return replace(settings, noise=replace(settings.noise, depth_bias_sd_m=0.0, **noise))
 
 
 @pytest.mark.parametrize(

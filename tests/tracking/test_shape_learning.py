@@ -19,7 +19,7 @@ from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_
 
 def test_shape_covariance_is_larger_along_the_ray() -> None:
     measured, stays_m = calibration(sd_m=4e-4), 3e-4
-    noise = replace(TrackerSettings().noise, depth_stays_m=stays_m)
+    noise = replace(TrackerSettings().noise, depth_bias_sd_m=stays_m)
     found = shape_covariance(measured, D435, noise)
     locked = shape_covariance(measured, PRIMESENSE, noise) - found
     for disc, place in enumerate(RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M):
@@ -37,8 +37,8 @@ def test_shape_covariance_is_larger_along_the_ray() -> None:
 def test_depth_bias_limits_the_sd_of_angles() -> None:
     """The axes of the hand are those of its discs: as sure as their heights are, seen from elsewhere."""
     stated = []
-    for stays_m in (0.0, TrackerSettings().noise.depth_stays_m, 1e-3):
-        noise = replace(TrackerSettings().noise, depth_stays_m=stays_m)
+    for stays_m in (0.0, TrackerSettings().noise.depth_bias_sd_m, 1e-3):
+        noise = replace(TrackerSettings().noise, depth_bias_sd_m=stays_m)
         tracker = Tracker(calibration(sd_m=5e-5), CAMERA, TrackerSettings(noise=noise, use_surface=False))
         for k in range(16):
             pose = Pose(np.array([3.0, 2.0, 2.0]) * min(k, 10))

@@ -145,7 +145,13 @@ def test_surface_fit_lasting_deformation_does_not_keep_turning_the_hand(surface:
 def test_surface_fit_depth_noise_scatters_as_stated(surface: DorsalSurface, shared: float) -> None:
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
     of the scatter."""
-    settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0, reading_per_m=0.0014)
+    settings = SurfaceSettings(
+        shared_variance_share=shared,
+        turn_sd_rad=0.0,
+        height_sd_m=0.0,
+        persistence_factor=1.0,
+        min_reading_sd_per_m=0.0014,
+    )
     rng, sd_m = np.random.default_rng(0), 0.0014 * float(np.median(READINGS.depth_m)) ** 2
     found, stated = [], []
     for _ in range(120):
@@ -201,7 +207,7 @@ def fit_readings(surface: DorsalSurface, samples: SurfaceSamples, settings: Surf
 def test_surface_calibration_covariance_is_a_share_of_one_frames(surface: DorsalSurface) -> None:
     settings = SurfaceSettings()
     found = surface_calibration_covariance(surface, VIEW, settings)
-    one = fit_readings(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
+    one = fit_readings(surface, READINGS, replace(settings, turn_sd_rad=0.0, height_sd_m=0.0))
     ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
     assert (ratio < 2.0 * settings.stays**2).all()
     assert (ratio > 0.5 * settings.stays**2).all()

@@ -218,7 +218,7 @@ class AnatomyPrior:
     table; ``finger_start_m`` and ``thumb_start_m``, along X and Y, of the first joint centre (MCP, CMC1) from the place
     under its disc: people stick a disc up to 5 mm off its place, that of CMC1 anywhere on the slope over it.
 
-    ``depth_stays_m``: constant error of a disc's depth over a recording. To the camera it is height, at the neutral
+    ``depth_bias_sd_m``: constant error of a disc's depth over a recording. To the camera it is height, at the neutral
     pose and after, so it is part of what is not known of the heights. ``stuck_off_m``: how far a disc on a finger is
     stuck beside the middle of its joint. ``finger_depth_m`` of each disc's height over its joint centre by itself (MCP,
     PIP, DIP, TIP), ``thumb_depth_m`` (CMC1, MCP1, IP1, TIP1): with ``height_scale`` somewhat more than a quarter of the
@@ -247,7 +247,7 @@ class AnatomyPrior:
     thumb_depth_m: tuple[float, ...] = (0.0035, 0.0015, 0.0010, 0.0010)
     finger_start_m: tuple[float, ...] = (0.0025, 0.0020)
     thumb_start_m: tuple[float, ...] = (0.0030, 0.0040)
-    depth_stays_m: float = 0.0004
+    depth_bias_sd_m: float = 0.0004
     stuck_off_m: float = 0.0006
     neutral_abduction_rad: float = math.radians(2.2)
     neutral_flexion_rad: float = math.radians(4.5)
@@ -306,7 +306,7 @@ def constants_prior(
         if not chain:
             sd[4] = prior.thumb_roll_rad
         # A disc of the thumb is turned away from a camera above by the thumb's roll.
-        stays_m = prior.depth_stays_m * np.array([1.0, *(3 * [1.0 if chain else math.cos(mean[0, 4])])])
+        stays_m = prior.depth_bias_sd_m * np.array([1.0, *(3 * [1.0 if chain else math.cos(mean[0, 4])])])
         sd[7:] = np.maximum(stays_m, _FIXED_SD)
         heights = np.zeros(11)
         if has_offsets:

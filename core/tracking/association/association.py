@@ -139,7 +139,7 @@ def chi2_quantiles(probability: float) -> tuple[float, ...]:
 
 def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
     """Return whether the joint NIS of all markers is within its bound."""
-    most = chi2_quantiles(settings.consistent)
+    most = chi2_quantiles(settings.consistency_probability)
     return dof == 0 or nis <= most[min(dof, len(most) - 1)]
 
 
@@ -212,7 +212,7 @@ def associate_jointly(
             possible = (distance2 <= settings.gate_sd**2) & ~is_used
             options.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
         score = np.concatenate(options, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
-        order = np.argsort(-score, axis=None, kind="stable")[: settings.beam if beam is None else beam]
+        order = np.argsort(-score, axis=None, kind="stable")[: settings.beam_width if beam is None else beam]
         order = order[np.isfinite(score.ravel()[order])]
         parent, option = np.divmod(order, score.shape[1])
         branches = _extend_branches(branches, parent, option, score.ravel()[order], block, measured, noise_variance)

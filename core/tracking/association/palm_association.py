@@ -81,7 +81,7 @@ def measurements_from_blobs(
     excess_variance = np.maximum(sd_m**2 - model_variance, 0.0)
     variance = np.empty((len(blobs), 3))
     variance[:, :2] = (noise.pixel_sd_px**2 + occlusion_sd_px**2)[:, None]
-    variance[:, 2] = noise.depth_ratio**2 * model_variance + excess_variance + sensor.bias_sd_m(at_m) ** 2
+    variance[:, 2] = noise.depth_noise_ratio**2 * model_variance + excess_variance + sensor.bias_sd_m(at_m) ** 2
     return Measurements(value, variance)
 
 
@@ -177,8 +177,8 @@ def _reject_wrong_depths(
         return assigned
     off_m = np.abs(blobs.value[assigned, 2] - depth_m)
     is_off_depth &= np.isfinite(off_m)
-    if np.count_nonzero((assigned >= 0) & ~is_off_depth) >= settings.least_company:
-        is_off_depth &= off_m > settings.apart_m
+    if np.count_nonzero((assigned >= 0) & ~is_off_depth) >= settings.min_markers_at_depth:
+        is_off_depth &= off_m > settings.max_depth_error_m
     return np.where(is_off_depth, -1, assigned)
 
 

@@ -84,14 +84,14 @@ def shape_partial_update(new_share: float) -> FloatArray:
 
 
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:
-    """Return the covariance (18, 18) of the discs' places as calibrated.
+    """Return the covariance (18, 18) of the markers' calibrated positions.
 
-    With what the scatter of a still hand's depths does not show of their error: its ``depth_stays_m``, and the step to
-    which a depth stays rounded while the hand is still.
+    Includes what the scatter of a still hand's depths does not show of their error: ``depth_bias_sd_m``, and the step
+    to which a depth remains rounded while the hand is still.
     """
     depth_m = marker_positions_cam_m(calibration)[:, 2]
     rounded_m = 0.0 if sensor.averages else LOCKED_DEPTH_SHARE * sensor.reading_sd_m(depth_m)
-    own = calibration.marker_covariance_w0_m2 + ray_covariances(calibration, np.hypot(noise.depth_stays_m, rounded_m))
+    own = calibration.marker_covariance_w0_m2 + ray_covariances(calibration, np.hypot(noise.depth_bias_sd_m, rounded_m))
     own = own + _MIN_SD_M**2 * np.eye(3)
     count = len(own)
     covariance = np.zeros((count, 3, count, 3))
@@ -284,8 +284,10 @@ def adapt_noise_factor(
     if dt_s <= 0.0:
         return factor
     weight = 1.0 - math.exp(-dt_s / NOISE_ADAPTATION_S)
-    excess = np.where(is_measured, np.minimum(residual * residual, noise.most_adapted), 1.0)
+    excess = np.where(is_measured, np.minimum(residual * residual, noise.max_variance_factor), 1.0)
     excess[..., :2] = 0.5 * (excess[..., :1] + excess[..., 1:2])
     excess -= 1.0
     grown = factor + weight * factor * excess
-    return np.where(is_measured, np.minimum(np.maximum(grown, noise.least_adapted), noise.most_adapted), factor)
+    return np.where(
+        is_measured, np.minimum(np.maximum(grown, noise.min_variance_factor), noise.max_variance_factor), factor
+    )

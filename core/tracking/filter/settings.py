@@ -19,24 +19,33 @@ Profile = Literal["slow", "standard", "brisk"]
 
 @dataclass(frozen=True, slots=True)
 class AssociationSettings:
-    """Priors and densities of (12).
+    """Priors, densities and gate of the association, equation (12) of the wrist paper.
 
-    ``prior_marker``: that a blob is one given marker; ``prior_clutter``: that it is none.
-    ``gate_sd``: blobs further than this from a prediction (in standard deviations of the innovation) are
-    never that marker. ``depth_range_m``: over which clutter's depth is spread. ``least_company``: so many discs at
-    their depth bear out another whose depth is something else's, unless that is more than ``apart_m`` off. ``beam``: so
-    many ways to name all are followed side by side. A set of names is doubted when chance gives a smaller NIS with the
-    probability ``consistent``.
+    Attributes
+    ----------
+    prior_marker, prior_clutter : float
+        Prior probability that a blob is one given marker, and that it is none.
+    gate_sd : float
+        Gate, in standard deviations of the innovation: a blob beyond it is never that marker.
+    depth_range_m : float
+        Range over which the depth of clutter is spread.
+    min_markers_at_depth, max_depth_error_m : int, float
+        With so many markers at their predicted depth, another marker whose depth is wrong by no more than this is
+        associated by its image position.
+    beam_width : int
+        Joint associations that are followed side by side.
+    consistency_probability : float
+        A joint association is doubted if its NIS is beyond this quantile.
     """
 
     prior_marker: float = 0.9
     prior_clutter: float = 0.1
     gate_sd: float = 5.0
     depth_range_m: float = 0.5
-    least_company: int = 3
-    apart_m: float = 0.03
-    beam: int = 10
-    consistent: float = 0.9995
+    min_markers_at_depth: int = 3
+    max_depth_error_m: float = 0.03
+    beam_width: int = 10
+    consistency_probability: float = 0.9995
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,20 +62,28 @@ class Profiles:
 
 @dataclass(frozen=True, slots=True)
 class MeasurementNoise:
-    """Noise of the measurements.
+    """Measurement noise.
 
-    ``pixel_sd_px`` of a whole, well lit disc's centre, measured again on every still hand; ``depth_ratio`` of the
-    depths' scatter to that of a reading by the book, likewise measured. ``depth_stays_m``: constant error of a disc's
-    depth over a recording (the matching window flattens knuckles). A residual beyond ``outlier_sd`` is given the noise
-    it shows; each marker's variance rises to at most ``most_adapted`` times and falls to ``least_adapted``.
+    Attributes
+    ----------
+    pixel_sd_px : float
+        Of the centre of a whole, well lit marker; measured again on every still hand.
+    depth_noise_ratio : float
+        Scatter of the depths over that of the sensor model; measured again on every still hand.
+    depth_bias_sd_m : float
+        Of the constant error of a marker's depth over a recording: the sensor's matching window flattens knuckles.
+    outlier_sd : float
+        A residual beyond it is given the noise that it shows.
+    max_variance_factor, min_variance_factor : float
+        Limits of the adaptive factor on each marker's variance.
     """
 
     pixel_sd_px: float = 0.15
-    depth_ratio: float = 1.0
+    depth_noise_ratio: float = 1.0
     outlier_sd: float = 3.5
-    most_adapted: float = 100.0
-    least_adapted: float = 0.6
-    depth_stays_m: float = 2.5e-4
+    max_variance_factor: float = 100.0
+    min_variance_factor: float = 0.6
+    depth_bias_sd_m: float = 2.5e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +109,7 @@ class TrackerSettings:
     DIP joints coupled to PIP joints or free; ``lost_after_s`` without three palm markers the hand is lost.
 
     The constants, whose reasons stand in their classes: ``mode_scales`` of motion modes run side by side, as factors on
-    the process noise; ``shape_hidden`` share of a correction of the palm's shape taken for a constant error of depth;
+    the process noise; ``shape_bias_share`` of a correction of the palm's shape taken for a constant error of depth;
     ``tissue`` how skin and relief move; ``use_surface`` measure the back of the hand by its depth, as ``surface`` says;
     ``marker_radius_m`` of the paper discs, as measured at each calibration.
     """
@@ -102,7 +119,7 @@ class TrackerSettings:
     dip: Literal["coupled", "free"] = "coupled"
     lost_after_s: float = 1.5
     profiles: Profiles = field(default_factory=Profiles, metadata=NOT_IN_FILE)
-    shape_hidden: float = field(default=0.3, metadata=NOT_IN_FILE)
+    shape_bias_share: float = field(default=0.3, metadata=NOT_IN_FILE)
     mode_scales: tuple[float, ...] = field(default=(0.5, 4.0), metadata=NOT_IN_FILE)
     scaling: UnscentedParameters = field(default_factory=UnscentedParameters, metadata=NOT_IN_FILE)
     initial: InitialSd = field(default_factory=InitialSd, metadata=NOT_IN_FILE)

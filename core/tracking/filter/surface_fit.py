@@ -24,26 +24,39 @@ NO_NOISE = np.full((1, 3), 1e-12)  # variances of a measurement whose covariance
 class SurfaceSettings:
     """Settings of the surface fit.
 
-    ``steps`` of Gauss-Newton; residuals beyond ``huber_m`` have less weight, beyond ``most_m`` none; with less than
-    ``least`` readings the surface is not fitted. Readings nearer to each other than the sensor's patch share the part
-    ``shared`` of their variance, which is not of rounding to steps of disparity (clinical reference 7.2: a step is two
-    standard deviations), or all of it where the sensor has no such steps; ``reading_per_m`` is a reading's at least,
-    over the depth squared. ``turn_sd_rad`` and ``up_sd_m`` that no number of readings takes away from one frame. Beyond
-    ``most_nis`` it is not this surface. ``goes_on``: by how much more the error of one frame counts since the next has
-    a part of it again; ``stays``: share of it that comes again as long as the hand is still.
+    Attributes
+    ----------
+    iterations : int
+        Gauss-Newton iterations.
+    huber_m, max_residual_m : float
+        Residuals beyond the first have less weight (Huber), beyond the second none.
+    min_readings : int
+        With fewer depth readings the surface is not fitted.
+    shared_variance_share : float
+        Share of the variance that readings within the sensor's matching window have in common: all that is not rounding
+        to steps of disparity (clinical reference 7.2: a step is two standard deviations). 1 for a sensor without steps.
+    min_reading_sd_per_m : float
+        Lower limit of a reading's standard deviation over its depth squared.
+    turn_sd_rad, height_sd_m : float
+        Standard deviations that no number of readings reduces within one frame.
+    max_nis : float
+        Beyond this normalised innovation squared it is another surface.
+    persistent_share, persistence_factor : float
+        Share of the error that comes again in each frame of a still hand, and the factor by which a frame's error
+        counts more for it.
     """
 
-    steps: int = 3
+    iterations: int = 3
     huber_m: float = 0.003
-    most_m: float = 0.010
-    least: int = 24
-    shared: float = 2.0 / 3.0
-    reading_per_m: float = 1.5e-3
+    max_residual_m: float = 0.010
+    min_readings: int = 24
+    shared_variance_share: float = 2.0 / 3.0
+    min_reading_sd_per_m: float = 1.5e-3
     turn_sd_rad: float = 0.004
-    up_sd_m: float = 0.0002
-    most_nis: float = 40.0
-    stays: float = 0.6
-    goes_on: float = 1.5
+    height_sd_m: float = 0.0002
+    max_nis: float = 40.0
+    persistent_share: float = 0.6
+    persistence_factor: float = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,19 +104,19 @@ def fit_surface(
     if found is None:
         return None
     value, covariance, slope, count = found
-    return SurfaceMeasurement(value, covariance, slope, count, settings.most_nis)
+    return SurfaceMeasurement(value, covariance, slope, count, settings.max_nis)
 
 
 def surface_calibration_covariance(surface: DorsalSurface, view: PalmView, settings: SurfaceSettings) -> FloatArray:
     """Return the covariance (3, 3) of the calibrated surface's own turn about X and Y and height.
 
-    The share ``stays`` of one frame's errors, since these come again in every frame of a still hand and no averaging
-    removes them.
+    It is ``persistent_share`` of one frame's error: that comes again in every frame of a still hand, and no averaging
+    removes it.
     """
     node = surface.node_positions_m()
     in_camera = node @ view.rotation_w0_cam.T + view.translation_w0_cam_m
     samples = SurfaceSamples(view.camera.project(in_camera), in_camera[:, 2])
     neutral = PalmEstimate(np.eye(3), np.zeros(SIZE), np.eye(SIZE))
-    bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0)
+    bare = replace(settings, turn_sd_rad=0.0, height_sd_m=0.0, persistence_factor=1.0)
     found = fit_surface(neutral, samples, surface, view, bare)
-    return np.eye(3) if found is None else settings.stays**2 * found.covariance
+    return np.eye(3) if found is None else settings.persistent_share**2 * found.covariance
