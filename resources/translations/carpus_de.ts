@@ -5545,7 +5545,7 @@
     </message>
     <message>
         <source>Analysed</source>
-        <translation>Ausgewertet</translation>
+        <translation>Gewertet</translation>
     </message>
     <message>
         <source>no opposition</source>
@@ -5585,7 +5585,7 @@
     </message>
     <message>
         <source>little finger, proximal crease</source>
-        <translation>Kleinfinger, Grundgelenk-Beugefalte</translation>
+        <translation>Kleinfinger, proximale Beugefalte</translation>
     </message>
     <message>
         <source>distal palmar crease</source>
@@ -6453,11 +6453,11 @@ cm</translation>
     </message>
     <message>
         <source>Daily at 12:00</source>
-        <translation>Täglich um 12:00</translation>
+        <translation>Um 12:00</translation>
     </message>
     <message>
         <source>Daily at 18:00</source>
-        <translation>Täglich um 18:00</translation>
+        <translation>Um 18:00</translation>
     </message>
     <message>
         <source>Manual only</source>
@@ -6469,11 +6469,11 @@ cm</translation>
     </message>
     <message>
         <source>Backup folder</source>
-        <translation>Ordner für Sicherungen</translation>
+        <translation>Ordner</translation>
     </message>
     <message>
         <source>Automatic</source>
-        <translation>Automatisch</translation>
+        <translation>Täglich</translation>
     </message>
     <message>
         <source>Keep</source>
@@ -7029,7 +7029,7 @@ cm</translation>
     </message>
     <message>
         <source>Repetition {number}</source>
-        <translation>Wiederholung {number}</translation>
+        <translation>Wdh. {number}</translation>
     </message>
     <message>
         <source>repetition</source>
@@ -8339,7 +8339,7 @@ von oben</translation>
     </message>
     <message>
         <source>Proposed, recording of {day}: at least {score}</source>
-        <translation>Vorschlag, Aufnahme vom {day}: mindestens {score}</translation>
+        <translation>Vorschlag aus der Aufnahme vom {day}: mindestens {score}</translation>
     </message>
     <message>
         <source>Manual and Carpus values are kept separate</source>
@@ -8482,7 +8482,7 @@ von oben</translation>
     <name>MarkersScreen</name>
     <message>
         <source>Wrist cannot reach neutral…</source>
-        <translation>Handgelenk nicht in Neutralstellung…</translation>
+        <translation>Handgelenk nicht neutral…</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
@@ -8530,7 +8530,7 @@ von oben</translation>
     </message>
     <message>
         <source>All labels are correct</source>
-        <translation>Alle Bezeichnungen stimmen</translation>
+        <translation>Alle stimmen</translation>
     </message>
     <message>
         <source>New image</source>
@@ -8569,11 +8569,11 @@ von oben</translation>
     </message>
     <message>
         <source>Answers of the paper form in order, - for none. Only the score is saved.</source>
-        <translation>Antworten des Papierbogens der Reihe nach, - für keine. Nur die Punktzahl wird gespeichert.</translation>
+        <translation>Antworten des Papierbogens der Reihe nach, „-“ für keine Antwort. Gespeichert wird nur die Punktzahl.</translation>
     </message>
     <message>
         <source>not an answer</source>
-        <translation>keine Antwort</translation>
+        <translation>keine gültige Antwort</translation>
     </message>
     <message>
         <source>{count} of {all}</source>

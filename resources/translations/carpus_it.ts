@@ -385,11 +385,11 @@
     </message>
     <message>
         <source>Depth was {share} % too large.</source>
-        <translation>La profondità era sovrastimata del {share} %.</translation>
+        <translation>La profondità era sovrastimata ({share} %).</translation>
     </message>
     <message>
         <source>Depth was {share} % too small.</source>
-        <translation>La profondità era sottostimata del {share} %.</translation>
+        <translation>La profondità era sottostimata ({share} %).</translation>
     </message>
     <message>
         <source>good: below {limit} px</source>
@@ -3581,7 +3581,7 @@
     </message>
     <message>
         <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
-        <translation>{angle}: il riferimento mostra il {percent} % del movimento misurato da Carpus. Forse ha un’altra unità o indica un altro angolo</translation>
+        <translation>{angle}: il movimento del riferimento è pari a {percent} % di quello misurato da Carpus. Forse ha un’altra unità o indica un altro angolo</translation>
     </message>
     <message>
         <source>{calibration} has an impossible depth</source>
@@ -3889,7 +3889,7 @@
     </message>
     <message>
         <source>the clocks drift: the reference by {percent} % relative to Carpus, {seconds} s over {length} s. The values contain this error (lag {lag} s with drift {drift} %)</source>
-        <translation>gli orologi divergono: quello del riferimento del {percent} % rispetto a Carpus, {seconds} s in {length} s. I valori contengono questo errore (sfasamento {lag} s con deriva {drift} %)</translation>
+        <translation>gli orologi divergono: scarto del riferimento rispetto a Carpus {percent} %, {seconds} s in {length} s. I valori contengono questo errore (sfasamento {lag} s con deriva {drift} %)</translation>
     </message>
     <message>
         <source>the time shift is uncertain: {taken} s is used ({match}). Equally or nearly as good: {others}</source>
@@ -5545,7 +5545,7 @@
     </message>
     <message>
         <source>Analysed</source>
-        <translation>Analizzate</translation>
+        <translation>Usate</translation>
     </message>
     <message>
         <source>no opposition</source>
@@ -6453,11 +6453,11 @@ cm</translation>
     </message>
     <message>
         <source>Daily at 12:00</source>
-        <translation>Ogni giorno alle 12:00</translation>
+        <translation>Alle 12:00</translation>
     </message>
     <message>
         <source>Daily at 18:00</source>
-        <translation>Ogni giorno alle 18:00</translation>
+        <translation>Alle 18:00</translation>
     </message>
     <message>
         <source>Manual only</source>
@@ -6473,7 +6473,7 @@ cm</translation>
     </message>
     <message>
         <source>Automatic</source>
-        <translation>Automatica</translation>
+        <translation>Ogni giorno</translation>
     </message>
     <message>
         <source>Keep</source>
@@ -7029,7 +7029,7 @@ cm</translation>
     </message>
     <message>
         <source>Repetition {number}</source>
-        <translation>Ripetizione {number}</translation>
+        <translation>Rip. {number}</translation>
     </message>
     <message>
         <source>repetition</source>
@@ -8339,7 +8339,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Proposed, recording of {day}: at least {score}</source>
-        <translation>Proposta, registrazione del {day}: almeno {score}</translation>
+        <translation>Proposta dalla registrazione in data {day}: almeno {score}</translation>
     </message>
     <message>
         <source>Manual and Carpus values are kept separate</source>
@@ -8482,7 +8482,7 @@ dall’alto</translation>
     <name>MarkersScreen</name>
     <message>
         <source>Wrist cannot reach neutral…</source>
-        <translation>Polso non in posizione neutra…</translation>
+        <translation>Polso non neutro…</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
@@ -8530,7 +8530,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>All labels are correct</source>
-        <translation>Tutte le etichette sono corrette</translation>
+        <translation>Tutte corrette</translation>
     </message>
     <message>
         <source>New image</source>
@@ -8565,15 +8565,15 @@ dall’alto</translation>
     </message>
     <message>
         <source>{name}: answers by number</source>
-        <translation>{name}: risposte in cifre</translation>
+        <translation>{name}: risposte in numeri</translation>
     </message>
     <message>
         <source>Answers of the paper form in order, - for none. Only the score is saved.</source>
-        <translation>Risposte del modulo cartaceo in ordine, - per nessuna. Viene salvato solo il punteggio.</translation>
+        <translation>Risposte del modulo cartaceo in ordine, “-” per nessuna risposta. Viene salvato solo il punteggio.</translation>
     </message>
     <message>
         <source>not an answer</source>
-        <translation>non è una risposta</translation>
+        <translation>risposta non valida</translation>
     </message>
     <message>
         <source>{count} of {all}</source>

@@ -115,10 +115,11 @@ def _offset_px(depth: DepthCheck) -> str:
 def result_rows(calibration: CameraCalibration) -> list[tuple[State, str, str, str]]:
     """Return state, quantity, value and comment of each result."""
     error_px, depth = calibration.intrinsics.reprojection_error_px, calibration.depth
+    good, fair = (numbers.format_fixed(limit, 1) for limit in (GOOD_ERROR_PX, FAIR_ERROR_PX))
     lands = (
-        tr("good: below {limit} px").format(limit=GOOD_ERROR_PX) if error_px <= GOOD_ERROR_PX
-        else tr("fair: below {limit} px").format(limit=FAIR_ERROR_PX) if error_px <= FAIR_ERROR_PX
-        else tr("poor: above {limit} px").format(limit=FAIR_ERROR_PX)
+        tr("good: below {limit} px").format(limit=good) if error_px <= GOOD_ERROR_PX
+        else tr("fair: below {limit} px").format(limit=fair) if error_px <= FAIR_ERROR_PX
+        else tr("poor: above {limit} px").format(limit=fair)
     )  # fmt: skip
     focal_px, focal_sd_px = calibration.intrinsics.camera.fx_px, calibration.intrinsics.focal_sd_px
     focal = f"{numbers.format_fixed(focal_px, 1)} ± {numbers.format_fixed(focal_sd_px, 1)} px"

@@ -23,7 +23,7 @@ from carpus.ui.words import terms
 
 ROW_PX = 56
 COLUMNS = (0.024, 0.250, 0.343, 0.552, 0.685)
-LARGE_COLUMNS = (0.024, 0.250, 0.416, 0.65, 0.65)
+LARGE_COLUMNS = (0.024, 0.246, 0.420, 0.65, 0.65)
 """Left edges of name, hand, diagnosis, time since onset and last session as shares of the width; the count ends at
 the right. With large text only the card shows the time since onset."""
 LARGE_TEXT_SCALE = 1.25

@@ -150,7 +150,7 @@ class ProgressScreen(FittedWidget):
         self._side.setMinimumWidth(0 if narrow else self._theme.px(SIDE_PX))
         self._side.setMaximumWidth(NO_LIMIT_PX if narrow else self._theme.px(SIDE_PX))
         self.chart.setMinimumHeight(self._theme.px(MIN_CHART_PX) if narrow else 0)
-        self.span_text.setVisible(not narrow)
+        self.span_text.setVisible(not narrow and self.measure_choice.isHidden())  # room for one of the two
         self.report_button.set_label(self.report_button.text(), hint="" if narrow else "Ctrl+P")
         self.table_button.set_label(self.table_button.text(), hint="" if narrow else "Ctrl+E")
 
@@ -208,6 +208,7 @@ class ProgressScreen(FittedWidget):
         kinds = progress_choices(alike[-1]) if alike else []
         self.measure_choice.set_choices(kinds)
         self.measure_choice.setVisible(bool(kinds))
+        self._fit()
         self._show_choice()
 
     def _show_choice(self) -> None:

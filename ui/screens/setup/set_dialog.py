@@ -95,7 +95,7 @@ class SetDialog(Dialog):
     sets_saved = Signal(object, str)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
-        super().__init__(host, theme, 900)
+        super().__init__(host, theme, 920)
         self._sets: list[ExerciseSet] = []
         self._edited_set: ExerciseSet | None = None
         self._protocol_name = ""
