@@ -26,7 +26,7 @@ from carpus.core.records.reserve import create_reserve
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 
 if TYPE_CHECKING:  # nothing of Qt without a display
-    from PySide6.QtWidgets import QApplication
+    from PySide6.QtWidgets import QApplication, QSplashScreen
 
     from carpus.app.desktop.single_instance import SingleInstance
     from carpus.app.desktop.window import Desktop
@@ -59,18 +59,21 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
     from carpus.app.desktop import appearance, log
 
     log.start_log()
+    qt = appearance.create_application(["carpus"])
+    splash = appearance.show_splash(qt)
     loaded, told = load_valid_settings()
     settings = with_data_folder(loaded, data_folder)
-    qt = appearance.create_application(["carpus"])
     usual = loaded.data_folder if loaded.data_folder.is_dir() else None
     is_reopened = False
     while True:
-        opened = _open_desktop(qt, settings, is_demo=is_demo, default_folder=usual, file=file, startup_faults=told)
+        opened = _open_desktop(
+            qt, splash, settings, is_demo=is_demo, default_folder=usual, file=file, startup_faults=told
+        )
         if isinstance(opened, int):
             return opened
         desktop, alone = opened
         try:
-            code = _run_desktop(desktop, file, is_demo=is_demo, is_reopened=is_reopened)
+            code = _run_desktop(desktop, splash, file, is_demo=is_demo, is_reopened=is_reopened)
         finally:
             desktop.close()
             alone.release()
@@ -92,6 +95,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
 
 def _open_desktop(
     qt: QApplication,
+    splash: QSplashScreen,
     settings: Settings,
     *,
     is_demo: bool,
@@ -133,6 +137,7 @@ def _open_desktop(
         except CarpusFault as fault:
             alone.release()
             print_fault(fault)
+            splash.close()
             chosen = folder_window.choose_data_folder(qt, settings, fault)
             if chosen is None:
                 return 1
@@ -144,9 +149,12 @@ def _open_desktop(
         return desktop, alone
 
 
-def _run_desktop(desktop: Desktop, file: Path | None, *, is_demo: bool, is_reopened: bool) -> int:
+def _run_desktop(
+    desktop: Desktop, splash: QSplashScreen, file: Path | None, *, is_demo: bool, is_reopened: bool
+) -> int:
     try:
         desktop.show(is_reopened=is_reopened)
+        splash.close()
         if is_demo and not desktop.is_closed:
             desktop.controller.patients.screen.refresh(PRACTICE_PATIENT)
         if file is not None and not desktop.is_closed:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import sys
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QSplashScreen
 
 from carpus.app.settings import Settings
 from carpus.core.platform.version import __version__
@@ -17,6 +20,9 @@ from carpus.ui.kit.theme import Theme, ThemeName
 
 def create_application(arguments: list[str]) -> QApplication:
     """Return the Qt application with the bundled typeface and Qt's plain style."""
+    if sys.platform == "linux" and os.environ.get("QT_QPA_PLATFORM") != "offscreen":
+        # The desktop's own file dialog, on GNOME as on KDE; where no portal answers, Qt shows its own.
+        os.environ.setdefault("QT_QPA_PLATFORMTHEME", "xdgdesktopportal")
     running = QApplication.instance()
     qt = running if isinstance(running, QApplication) else QApplication(arguments)
     qt.setApplicationName("Carpus")
@@ -26,6 +32,14 @@ def create_application(arguments: list[str]) -> QApplication:
     qt.setStyle("Fusion")
     load_fonts()
     return qt
+
+
+def show_splash(qt: QApplication) -> QSplashScreen:
+    """Show the program's icon until its window is there."""
+    splash = QSplashScreen(qt.windowIcon().pixmap(160))
+    splash.show()
+    qt.processEvents()
+    return splash
 
 
 def apply_appearance(qt: QApplication, settings: Settings) -> Theme:
