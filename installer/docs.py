@@ -40,9 +40,13 @@ REFERENCE = {
                                    "Repetitions", "RepetitionRow"),
     "carpus.core.results.measures_table": ("MeasureRow",),
     "carpus.core.simulation.spec": ("RecordingSpec",),
+    "carpus.core.simulation.truth": ("Truth",),
+    "carpus.core.calibration.result": ("Calibration", "Clicks"),
     "carpus.core.formats.export": ("ExportResult", "RefusedSession"),
-    "carpus.core.research.agreement.compare": ("Comparison", "AnglePairs"),
+    "carpus.core.research.agreement.compare": ("Comparison", "AnglePairs", "Alignment"),
+    "carpus.core.research.agreement.time_alignment": ("ClockShift",),
     "carpus.core.research.agreement.statistics": ("Agreement",),
+    "carpus.core.model.types": ("KinematicState", "Frame"),
     "carpus.core.model.camera": ("Camera",),
     "carpus.core.model.errors": ("CarpusFault",),
 }  # fmt: skip
@@ -88,6 +92,8 @@ def reference() -> str:
     for module, names in REFERENCE.items():
         path = Path(*module.split(".")[1:]).with_suffix(".py")
         text = re.sub(r":\w+:`[~.]*(?:[\w.]+\.)?(\w+)`", r"``\1``", (ROOT / path).read_text(encoding="utf-8"))
+        # An attribute with its meaning in the same line: the meaning would be taken for its type.
+        text = re.sub(r"(?m)^(    \w[\w, ]*) : (.+)$(?!\n {8})", r"\1\n        \2", text)
         copy = SOURCE / "carpus" / path
         for folder in (copy.parent, *copy.parent.relative_to(SOURCE).parents):
             (SOURCE / folder).mkdir(parents=True, exist_ok=True)
