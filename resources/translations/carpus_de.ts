@@ -4577,7 +4577,7 @@
     </message>
     <message>
         <source>Nothing was changed.</source>
-        <translation>Alles ist, wie es war.</translation>
+        <translation>Es wurde nichts geändert.</translation>
     </message>
     <message>
         <source>Nothing was changed. New recordings are kept on this computer.</source>
@@ -5621,39 +5621,39 @@
     </message>
     <message>
         <source>The sessions are shown side by side, but not compared.</source>
-        <translation>Nebeneinander gezeigt, ohne Vergleich.</translation>
+        <translation>Die Sitzungen werden nebeneinander gezeigt, aber nicht verglichen.</translation>
     </message>
     <message>
         <source>The image is too dark: add light.</source>
-        <translation>Mehr Licht: Das Bild ist zu dunkel.</translation>
+        <translation>Das Bild ist zu dunkel: Mehr Licht geben.</translation>
     </message>
     <message>
         <source>Tilt the board less: the camera sees it almost edge-on.</source>
-        <translation>Weniger drehen: Man sieht fast nur die Kante.</translation>
+        <translation>Tafel weniger neigen: Man sieht fast nur die Kante.</translation>
     </message>
     <message>
         <source>The image is blurred: hold the board still, or add light.</source>
-        <translation>Nicht scharf: stillhalten, oder mehr Licht.</translation>
+        <translation>Das Bild ist unscharf: Tafel stillhalten oder mehr Licht geben.</translation>
     </message>
     <message>
         <source>Calculate · more positions and tilts</source>
-        <translation>Berechnen · mehr Stellen und Neigungen</translation>
+        <translation>Berechnen · mehr Positionen und Neigungen</translation>
     </message>
     <message>
         <source>The board is not visible: show the whole board, flat, in even light.</source>
-        <translation>Keine Tafel zu sehen: Zeigen Sie sie ganz und flach, in gleichmäßigem Licht.</translation>
+        <translation>Tafel nicht sichtbar: Zeigen Sie sie ganz und flach, bei gleichmäßigem Licht.</translation>
     </message>
     <message>
         <source>Depth–colour alignment</source>
-        <translation>Tiefe und Farbe</translation>
+        <translation>Ausrichtung Tiefe–Farbe</translation>
     </message>
     <message>
         <source>depth registration is off</source>
-        <translation>Registrierung ist aus</translation>
+        <translation>Ausrichtung ist aus</translation>
     </message>
     <message>
         <source>This camera reports no serial number, so its calibration cannot be saved here. IT support can write it to a camera file with “carpus calibrate-camera --output” and enter that file in the settings.</source>
-        <translation>Diese Kamera meldet keine Seriennummer. Deshalb kann ihre Kalibrierung hier nicht gespeichert werden. Die EDV-Betreuung kann sie mit „carpus calibrate-camera --output“ in eine Kameradatei schreiben und diese in den Einstellungen angeben.</translation>
+        <translation>Diese Kamera meldet keine Seriennummer. Deshalb kann ihre Kalibrierung hier nicht gespeichert werden. Die IT-Betreuung kann sie mit „carpus calibrate-camera --output“ in eine Kameradatei schreiben und diese in den Einstellungen angeben.</translation>
     </message>
     <message>
         <source>Show the next angle as the large number</source>
@@ -5665,11 +5665,11 @@
     </message>
     <message>
         <source>Move the start or end of the repetition earlier</source>
-        <translation>Grenze der Wiederholung früher legen</translation>
+        <translation>Anfang oder Ende der Wiederholung früher legen</translation>
     </message>
     <message>
         <source>Move the start or end of the repetition later</source>
-        <translation>Grenze der Wiederholung später legen</translation>
+        <translation>Anfang oder Ende der Wiederholung später legen</translation>
     </message>
     <message>
         <source>Zoom in on the curves</source>
@@ -5681,7 +5681,7 @@
     </message>
     <message>
         <source>Show the whole recording</source>
-        <translation>Kurven ganz zeigen</translation>
+        <translation>Ganze Aufnahme anzeigen</translation>
     </message>
     <message>
         <source>Select the previous session</source>
@@ -5693,19 +5693,19 @@
     </message>
     <message>
         <source>Previous frame (correction)</source>
-        <translation>Voriges Bild zum Korrigieren</translation>
+        <translation>Voriges Bild (Korrektur)</translation>
     </message>
     <message>
         <source>Next frame (correction)</source>
-        <translation>Nächstes Bild zum Korrigieren</translation>
+        <translation>Nächstes Bild (Korrektur)</translation>
     </message>
     <message>
         <source>Undo the last step</source>
-        <translation>Einen Schritt rückgängig machen</translation>
+        <translation>Letzten Schritt rückgängig machen</translation>
     </message>
     <message>
         <source>Save an image of the hand only</source>
-        <translation>Dieses Bild nur mit der Hand</translation>
+        <translation>Bild nur von der Hand speichern</translation>
     </message>
     <message>
         <source>Tick a session for comparison</source>
@@ -5713,23 +5713,23 @@
     </message>
     <message>
         <source>Show the whole image or only the hand</source>
-        <translation>Ganzes Bild oder nur die Hand</translation>
+        <translation>Ganzes Bild oder nur die Hand anzeigen</translation>
     </message>
     <message>
         <source>Open or close the patient’s view</source>
-        <translation>Patientenansicht öffnen und schließen</translation>
+        <translation>Patientenansicht öffnen oder schließen</translation>
     </message>
     <message>
         <source>Undo the last click</source>
-        <translation>Letzten Marker zurücknehmen</translation>
+        <translation>Letzten Klick zurücknehmen</translation>
     </message>
     <message>
         <source>Swap two labels</source>
-        <translation>Zwei Marker tauschen</translation>
+        <translation>Zwei Bezeichnungen tauschen</translation>
     </message>
     <message>
         <source>Click the marker again</source>
-        <translation>Neu anklicken</translation>
+        <translation>Marker neu anklicken</translation>
     </message>
     <message>
         <source>No angle yet</source>
@@ -5745,7 +5745,7 @@
     </message>
     <message>
         <source>The line of each finger should run from the wrist to the fingertip. To change a label, drag it to another marker.</source>
-        <translation>Die Linie jedes Fingers läuft vom Handgelenk zur Fingerspitze. Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
+        <translation>Die Linie jedes Fingers soll vom Handgelenk zur Fingerspitze laufen. Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
         <source>all {count} found</source>
@@ -5757,11 +5757,11 @@
     </message>
     <message>
         <source>mean ± SD of the repetitions</source>
-        <translation>Mittel, ± SD zwischen Wiederholungen</translation>
+        <translation>Mittelwert ± SD der Wiederholungen</translation>
     </message>
     <message>
         <source>α and γ are shown only where their SD is below 30° ({share} of the time). Near the neutral position, only β and α + γ can be measured.</source>
-        <translation>α und γ stehen da, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Nullstellung sind nur β und α + γ bekannt.</translation>
+        <translation>α und γ sind nur dort angegeben, wo ihre SD unter 30° bleibt ({share} der Zeit): Nahe der Neutralstellung sind nur β und α + γ bestimmbar.</translation>
     </message>
     <message>
         <source>{name}, across the palm</source>
@@ -5769,39 +5769,39 @@
     </message>
     <message>
         <source>Plausible position while occluded</source>
-        <translation>Haltung plausibel, während verdeckt</translation>
+        <translation>Handstellung bei Verdeckung plausibel</translation>
     </message>
     <message>
         <source>Position within 15° while occluded</source>
-        <translation>Haltung auf 15° genau, während verdeckt</translation>
+        <translation>Handstellung bei Verdeckung auf 15° genau</translation>
     </message>
     <message>
         <source>Position jump when visible again</source>
-        <translation>Sprung beim Wiederauftauchen</translation>
+        <translation>Positionssprung beim Wiederauftauchen</translation>
     </message>
     <message>
         <source>Delay of {other} after {one}</source>
-        <translation>{other} später als {one}</translation>
+        <translation>Verzögerung: {other} nach {one}</translation>
     </message>
     <message>
         <source>Involuntary movement of {other} with {one}</source>
-        <translation>Mitbewegung {other} durch {one}</translation>
+        <translation>Mitbewegung: {other} bei {one}</translation>
     </message>
     <message>
         <source>DIP not measured: TAM uses two thirds of the PIP flexion.</source>
-        <translation>DIP nicht gemessen: Die TAM rechnet mit zwei Dritteln des PIP-Winkels.</translation>
+        <translation>DIP nicht gemessen: Die TAM rechnet mit zwei Dritteln der PIP-Flexion.</translation>
     </message>
     <message>
         <source>with the axes of the hand along the path</source>
-        <translation>mit den Achsen der Hand</translation>
+        <translation>mit den Achsen der Hand entlang der Bahn</translation>
     </message>
     <message>
         <source>band: ± 1 SD; black: α + γ</source>
-        <translation>Band: ± 1 SD; schwarz: α + γ, mit γ</translation>
+        <translation>Band: ± 1 SD; schwarz: α + γ</translation>
     </message>
     <message>
         <source>mean ± SD; right column: {day}</source>
-        <translation>Mittel ± SD; rechts: {day}</translation>
+        <translation>Mittel ± SD; rechte Spalte: {day}</translation>
     </message>
     <message>
         <source>Made with Carpus {version}</source>
@@ -5849,11 +5849,11 @@
     </message>
     <message>
         <source>The wrist angles are in the order of the ISB (flexion first).</source>
-        <translation>Die Winkel des Handgelenks stehen in der Reihenfolge der ISB.</translation>
+        <translation>Die Winkel des Handgelenks stehen in der Reihenfolge der ISB (Flexion zuerst).</translation>
     </message>
     <message>
         <source>{depth} below the wrist marker (scatter {residual})</source>
-        <translation>{depth} unter dem Marker (Streuung {residual})</translation>
+        <translation>{depth} unter dem Handgelenkmarker (Streuung {residual})</translation>
     </message>
     <message>
         <source>Peak speed, mean ± SD</source>
@@ -5881,7 +5881,7 @@
     </message>
     <message>
         <source>Largest flexion of each joint; ± is the SD between repetitions.</source>
-        <translation>Jedes Gelenk bei größter Flexion; ± ist die SD zwischen den Wiederholungen.</translation>
+        <translation>Größte Flexion jedes Gelenks; ± ist die SD zwischen den Wiederholungen.</translation>
     </message>
     <message>
         <source>Hand exercises at home</source>
@@ -5897,91 +5897,91 @@
     </message>
     <message>
         <source>Notes and questions for your next appointment</source>
-        <translation>Notizen, oder was Sie nächstes Mal fragen möchten</translation>
+        <translation>Notizen und Fragen für den nächsten Termin</translation>
     </message>
     <message>
         <source>Movement in the other directions</source>
-        <translation>Bewegung der übrigen Winkel</translation>
+        <translation>Bewegung in den anderen Richtungen</translation>
     </message>
     <message>
         <source>Grades of finger motion</source>
-        <translation>Bewertungen</translation>
+        <translation>Bewertung der Fingerbeweglichkeit</translation>
     </message>
     <message>
         <source>Check the camera again: a check is due once a week.</source>
-        <translation>Erneut prüfen: einmal in der Woche.</translation>
+        <translation>Kamera erneut prüfen: Eine Prüfung ist einmal pro Woche fällig.</translation>
     </message>
     <message>
         <source>Saved for the camera with serial number {serial}. Values of earlier sessions do not change.</source>
-        <translation>Wird für diese Kamera mit der Nummer {serial} gespeichert. Frühere Sitzungen behalten ihre Werte.</translation>
+        <translation>Gespeichert für die Kamera mit der Seriennummer {serial}. Die Werte früherer Sitzungen ändern sich nicht.</translation>
     </message>
     <message>
         <source>Positions: {count} of {all} fields covered (at least {least} needed)</source>
-        <translation>Orte: {count} von {all} Feldern, mindestens {least}</translation>
+        <translation>Positionen: {count} von {all} Feldern (mindestens {least})</translation>
     </message>
     <message>
         <source>Show the board in other positions and at other tilts</source>
-        <translation>Zeigen Sie die Tafel an anderen Orten, anders geneigt</translation>
+        <translation>Zeigen Sie die Tafel an anderen Positionen, mit anderer Neigung</translation>
     </message>
     <message>
         <source>Correction not kept for {names}. Correct a later frame too.</source>
-        <translation>Nicht beibehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
+        <translation>Korrektur nicht beibehalten: {names}. Korrigieren Sie auch ein späteres Bild.</translation>
     </message>
     <message>
         <source>Image taken. Move the board to another position.</source>
-        <translation>Bild aufgenommen. Jetzt eine andere Stelle.</translation>
+        <translation>Bild aufgenommen. Bewegen Sie die Tafel an eine andere Position.</translation>
     </message>
     <message>
         <source>Nothing was changed. Turn on depth registration in the camera settings.</source>
-        <translation>Nichts wurde geändert. Schalten Sie in den Kameraeinstellungen die Registrierung von Tiefe und Farbe ein.</translation>
+        <translation>Es wurde nichts geändert. Schalten Sie in den Kameraeinstellungen die Ausrichtung von Tiefe und Farbe ein.</translation>
     </message>
     <message>
         <source>too few images with depth values of the board</source>
-        <translation>zu wenige Bilder mit Tiefe auf der Tafel</translation>
+        <translation>zu wenige Bilder mit Tiefenwerten auf der Tafel</translation>
     </message>
     <message>
         <source>mean of Carpus and reference · one point every 0.2 s, {count} points</source>
-        <translation>Mittel beider · ein Punkt je 0,2 s, {count} Punkte</translation>
+        <translation>Mittelwert von Carpus und Referenz · ein Punkt je 0,2 s, {count} Punkte</translation>
     </message>
     <message>
         <source>mean of Carpus and reference · one point per reading, {count} readings</source>
-        <translation>Mittel beider · ein Punkt je Ablesung, {count} Ablesungen</translation>
+        <translation>Mittelwert von Carpus und Referenz · ein Punkt je Ablesung, {count} Ablesungen</translation>
     </message>
     <message>
         <source>Correlation of flexion, {one}–{other} (r)</source>
-        <translation>Gemeinsame Flexion, {one}–{other} (r)</translation>
+        <translation>Korrelation der Flexion, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>Marker labels were corrected manually. The original result is kept.</source>
-        <translation>Marker wurden manuell korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
+        <translation>Markerbezeichnungen wurden manuell korrigiert. Das ursprüngliche Ergebnis bleibt erhalten.</translation>
     </message>
     <message>
         <source>Measured manually, not by Carpus: {values}.</source>
-        <translation>Manuelle Messungen, nicht von Carpus: {values}.</translation>
+        <translation>Manuell gemessen, nicht von Carpus: {values}.</translation>
     </message>
     <message>
         <source>each movement was shorter than 0.4 s</source>
-        <translation>jede war kürzer als 0,4 s</translation>
+        <translation>jede Bewegung war kürzer als 0,4 s</translation>
     </message>
     <message>
         <source>This clinic measured the MDC95 (measurement error) on {date} with {count} people. Where it was not measured, Carpus uses an expert default. The MDC applies to the same markers, side and set-up.</source>
-        <translation>MDC95 (Messfehler) hat diese Einrichtung am {date} mit {count} Personen gemessen. Sonst gilt die Expertenvorgabe von Carpus. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+        <translation>Diese Einrichtung hat die MDC95 (Messfehler) am {date} mit {count} Personen gemessen. Wo sie nicht gemessen wurde, verwendet Carpus eine Expertenschätzung. Die MDC gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
     </message>
     <message>
         <source>Until the clinic has measured its own MDC (measurement error), Carpus uses an expert default, not a published value. For a total arc, which has two ends, the MDC is √2 times as large. It applies to the same markers, side and set-up.</source>
-        <translation>MDC (Messfehler) ist die Expertenvorgabe von Carpus, kein veröffentlichter Wert, bis die Einrichtung selbst gemessen hat. Für ein Gesamtausmaß mit seinen zwei Enden ist sie √2-mal so groß. Sie gilt für dieselben Marker, dieselbe Seite und denselben Aufbau.</translation>
+        <translation>Bis die Einrichtung ihre eigene MDC (Messfehler) gemessen hat, verwendet Carpus eine Expertenschätzung, keinen veröffentlichten Wert. Für ein Gesamtausmaß mit seinen zwei Endpunkten ist die MDC √2-mal so groß. Sie gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
     </message>
     <message>
         <source>{sign}: manual measurement of that day, active / passive. It is not combined with the other values.</source>
-        <translation>{sign}: manuelle Messung an diesem Tag, aktiv / passiv; nicht mit den anderen Werten verrechnet.</translation>
+        <translation>{sign}: manuelle Messung an diesem Tag, aktiv / passiv. Sie wird nicht mit den anderen Werten verrechnet.</translation>
     </message>
     <message>
         <source>Check the camera once more, then calibrate it. If it is still out of tolerance, do not measure with it.</source>
-        <translation>Noch einmal prüfen, dann die Kamera kalibrieren. Ist sie weiter außerhalb der Toleranz, nicht mit ihr messen.</translation>
+        <translation>Die Kamera noch einmal prüfen, dann kalibrieren. Ist sie weiter außerhalb der Toleranz, nicht mit ihr messen.</translation>
     </message>
     <message>
         <source>{movement} {goal} (mean {mean}; beyond measurement error from {limit})</source>
-        <translation>{movement} {goal} (Mittel {mean}; ein Gewinn ist ab {limit} erkennbar)</translation>
+        <translation>{movement} {goal} (Mittelwert {mean}; über dem Messfehler ab {limit})</translation>
     </message>
     <message>
         <source>all lengths are {share} % too long, by up to {length} mm</source>
@@ -5997,7 +5997,7 @@
     </message>
     <message>
         <source>Show speeds or angles</source>
-        <translation>Geschwindigkeiten oder Winkel</translation>
+        <translation>Geschwindigkeiten oder Winkel anzeigen</translation>
     </message>
     <message>
         <source>Percentage of the other hand’s TAM or, if not known, of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
@@ -6005,7 +6005,7 @@
     </message>
     <message>
         <source>Check the camera again: it has been calibrated since the last check.</source>
-        <translation>Prüfen Sie erneut: Seitdem wurde kalibriert.</translation>
+        <translation>Kamera erneut prüfen: Seit der letzten Prüfung wurde sie kalibriert.</translation>
     </message>
     <message>
         <source>Tip to
@@ -6039,7 +6039,7 @@ cm</translation>
     </message>
     <message>
         <source>adults, ages not given; not for children or old age</source>
-        <translation>Erwachsene ohne Altersangabe; nicht für Kinder und hohes Alter</translation>
+        <translation>Erwachsene ohne Altersangabe; nicht für Kinder und alte Menschen</translation>
     </message>
     <message>
         <source>men</source>
@@ -6055,11 +6055,11 @@ cm</translation>
     </message>
     <message>
         <source>Another blue spot fits the {markers} better than the clicked one.</source>
-        <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
+        <translation>{markers}: Eine andere blaue Stelle passt besser als die angeklickte.</translation>
     </message>
     <message>
         <source>Click the centre of the marker again, and keep the hand still.</source>
-        <translation>Klicken Sie ihn neu in seiner Mitte an, und halten Sie die Hand ruhig.</translation>
+        <translation>Klicken Sie noch einmal in die Mitte des Markers, und halten Sie die Hand ruhig.</translation>
     </message>
     <message>
         <source>Click the centre of the {markers} again, or cover the other spot.</source>
@@ -6067,7 +6067,7 @@ cm</translation>
     </message>
     <message>
         <source>Cover the spot with the question mark, or give it the correct label.</source>
-        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr die Bezeichnung.</translation>
+        <translation>Decken Sie die Stelle mit dem Fragezeichen ab, oder geben Sie ihr die richtige Bezeichnung.</translation>
     </message>
     <message>
         <source>The {markers} does not fit the other markers: no hand has this shape.</source>
@@ -6075,15 +6075,15 @@ cm</translation>
     </message>
     <message>
         <source>The camera is connected again: {subject} (disconnected for {detail}).</source>
-        <translation>Die Kamera ist wieder da: {subject} (war {detail} weg).</translation>
+        <translation>Die Kamera ist wieder verbunden: {subject} ({detail} getrennt).</translation>
     </message>
     <message>
         <source>The hand length is {value} mm (the limit is {limit} mm).</source>
-        <translation>Die Hand misst {value} mm ({limit} mm ist die Grenze).</translation>
+        <translation>Die Handlänge beträgt {value} mm (Grenze: {limit} mm).</translation>
     </message>
     <message>
         <source>The hand length is {value} mm. Last time it was {limit} mm.</source>
-        <translation>Die Hand misst {value} mm, letztes Mal waren es {limit} mm.</translation>
+        <translation>Die Handlänge beträgt {value} mm. Letztes Mal waren es {limit} mm.</translation>
     </message>
     <message>
         <source>The hand was still for only {value} frames ({limit} or more are good).</source>
@@ -6091,67 +6091,67 @@ cm</translation>
     </message>
     <message>
         <source>The pseudonym {subject} belongs to another patient.</source>
-        <translation>Der Name {subject} gehört einem anderen Patienten.</translation>
+        <translation>Das Pseudonym {subject} gehört zu einem anderen Patienten.</translation>
     </message>
     <message>
         <source>The labels seem to be shifted: the marker clicked as {first} is probably the {second}.</source>
-        <translation>Die Bezeichnungen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber „{second}“.</translation>
+        <translation>Die Bezeichnungen scheinen verschoben: Angeklickt ist „{first}“, der Marker ist aber wahrscheinlich „{second}“.</translation>
     </message>
     <message>
         <source>The Dask scheduler at {subject} does not respond ({detail}).</source>
-        <translation>Der Scheduler unter {subject} antwortet nicht ({detail}).</translation>
+        <translation>Der Dask-Scheduler unter {subject} antwortet nicht ({detail}).</translation>
     </message>
     <message>
         <source>This camera does not align depth with colour, so depths at the markers will be wrong.</source>
-        <translation>Bei dieser Kamera sind Tiefe und Farbe nicht deckungsgleich. Die Tiefe wird daher neben den Markern gemessen.</translation>
+        <translation>Diese Kamera richtet Tiefe und Farbe nicht aufeinander aus, daher ist die Tiefe an den Markern falsch.</translation>
     </message>
     <message>
         <source>Unplug the camera, plug it in again, then restart the measurement.</source>
-        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an und starten Sie neu.</translation>
+        <translation>Ziehen Sie die Kamera ab, schließen Sie sie wieder an, und starten Sie die Messung neu.</translation>
     </message>
     <message>
         <source>Use a C3D, TRC or MOT file, a CSV table with its column map, or a session.</source>
-        <translation>Verwenden Sie C3D, TRC, MOT, eine CSV-Tabelle mit ihrer Spaltenzuordnung oder eine Sitzung.</translation>
+        <translation>Verwenden Sie eine C3D-, TRC- oder MOT-Datei, eine CSV-Tabelle mit ihrer Spaltenzuordnung oder eine Sitzung.</translation>
     </message>
     <message>
         <source>Use a camera with colour and depth, such as the Asus Xtion.</source>
-        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, zum Beispiel die Xtion.</translation>
+        <translation>Verwenden Sie eine Kamera mit Farbe und Tiefe, zum Beispiel die Asus Xtion.</translation>
     </message>
     <message>
         <source>Use the marker set wrist6 or hand21.</source>
-        <translation>Verwenden Sie wrist6 oder hand21.</translation>
+        <translation>Verwenden Sie den Markersatz wrist6 oder hand21.</translation>
     </message>
     <message>
         <source>damaged: a name in it is not text</source>
-        <translation>ein Name, der kein Text ist</translation>
+        <translation>beschädigt: ein Name darin ist kein Text</translation>
     </message>
     <message>
         <source>all six markers visible in {count} of {looked} frames</source>
-        <translation>alle sechs Marker in {count} von {looked} Bildern</translation>
+        <translation>alle sechs Marker in {count} von {looked} Bildern sichtbar</translation>
     </message>
     <message>
         <source>{count} bytes after the end of the recording</source>
-        <translation>{count} Bytes nach dem Ende</translation>
+        <translation>{count} Bytes nach dem Ende der Aufnahme</translation>
     </message>
     <message>
         <source>damaged: the end cannot be read</source>
-        <translation>beschädigt: nicht bis zum Ende lesbar</translation>
+        <translation>beschädigt: Das Ende ist nicht lesbar</translation>
     </message>
     <message>
         <source>damaged: Carpus could not finish reading it</source>
-        <translation>beschädigt: das Lesen endet nicht</translation>
+        <translation>beschädigt: Carpus konnte das Lesen nicht abschließen</translation>
     </message>
     <message>
         <source>the focal length is uncertain by {share} %</source>
-        <translation>die Brennweite ist nur auf {share} % genau bekannt</translation>
+        <translation>die Brennweite ist um {share} % unsicher</translation>
     </message>
     <message>
         <source>this setting does not exist (file {file})</source>
-        <translation>diese Einstellung gibt es nicht (in {file})</translation>
+        <translation>diese Einstellung gibt es nicht (Datei {file})</translation>
     </message>
     <message>
         <source>The labels of {markers} seem to be swapped.</source>
-        <translation>{markers} scheinen vertauscht.</translation>
+        <translation>Die Bezeichnungen scheinen vertauscht: {markers}.</translation>
     </message>
     <message>
         <source>damaged: the calibration in it does not describe a hand</source>
@@ -6159,23 +6159,23 @@ cm</translation>
     </message>
     <message>
         <source>A recording ended before its first second was saved, so it cannot be recovered: {subject}.</source>
-        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war: {subject}. Es gibt nichts wiederherzustellen.</translation>
+        <translation>Eine Aufnahme endete, bevor ihre erste Sekunde gespeichert war, und kann nicht wiederhergestellt werden: {subject}.</translation>
     </message>
     <message>
         <source>A session that was saved on this computer is now in the session folder: {subject}.</source>
-        <translation>Eine Sitzung, die auf diesem Computer lag, ist jetzt im Sitzungsordner: {subject}.</translation>
+        <translation>Eine Sitzung, die auf diesem Computer gespeichert war, ist jetzt im Sitzungsordner: {subject}.</translation>
     </message>
     <message>
         <source>All sessions are safe. Your last entries may not be saved.</source>
-        <translation>Alle Sitzungen sind sicher. Was gerade eingegeben wurde, ist vielleicht nicht gespeichert.</translation>
+        <translation>Alle Sitzungen sind sicher. Ihre letzten Eingaben sind vielleicht nicht gespeichert.</translation>
     </message>
     <message>
         <source>Back up to another disk now, and replace the faulty disk.</source>
-        <translation>Sichern Sie die Daten jetzt auf einem anderen Datenträger, und ersetzen Sie diesen.</translation>
+        <translation>Sichern Sie die Daten jetzt auf einem anderen Datenträger, und ersetzen Sie den defekten.</translation>
     </message>
     <message>
         <source>Check that the reference shows the same movement, and state which column or marker is which.</source>
-        <translation>Prüfen Sie, ob es dieselbe Bewegung ist, und geben Sie an, wofür jede Spalte und jeder Marker steht.</translation>
+        <translation>Prüfen Sie, ob die Referenz dieselbe Bewegung zeigt, und geben Sie an, wofür jede Spalte und jeder Marker steht.</translation>
     </message>
     <message>
         <source>Check that the folder exists and that you are allowed to write to it, or choose another folder.</source>
@@ -6183,31 +6183,31 @@ cm</translation>
     </message>
     <message>
         <source>Check the address of the scheduler.</source>
-        <translation>Prüfen Sie die Adresse.</translation>
+        <translation>Prüfen Sie die Adresse des Schedulers.</translation>
     </message>
     <message>
         <source>Close the other window or program, then try again.</source>
-        <translation>Schließen Sie sie dort, und versuchen Sie es dann noch einmal.</translation>
+        <translation>Schließen Sie das andere Fenster oder Programm, und versuchen Sie es dann noch einmal.</translation>
     </message>
     <message>
         <source>Close other programs that use these files, then restart Carpus.</source>
-        <translation>Schließen Sie andere Programme, die sie benutzen, und starten Sie Carpus neu.</translation>
+        <translation>Schließen Sie andere Programme, die diese Dateien benutzen, und starten Sie Carpus neu.</translation>
     </message>
     <message>
         <source>Continue measuring. The gap is marked in the session.</source>
-        <translation>Fahren Sie fort. Die Lücke ist in der Sitzung markiert.</translation>
+        <translation>Messen Sie weiter. Die Lücke ist in der Sitzung markiert.</translation>
     </message>
     <message>
         <source>Continue measuring. When the disk or network is available again, Carpus moves the session automatically.</source>
-        <translation>Fahren Sie fort. Wenn Datenträger oder Netz wieder verfügbar sind, verschiebt Carpus die Sitzung automatisch.</translation>
+        <translation>Messen Sie weiter. Wenn Datenträger oder Netz wieder verfügbar sind, verschiebt Carpus die Sitzung automatisch.</translation>
     </message>
     <message>
         <source>Copy the recording again from its source, or correct its list of frames.</source>
-        <translation>Kopieren Sie die Aufnahme noch einmal, oder korrigieren Sie ihre Bildliste.</translation>
+        <translation>Kopieren Sie die Aufnahme noch einmal von ihrer Quelle, oder korrigieren Sie ihre Bildliste.</translation>
     </message>
     <message>
         <source>Everything saved before is safe. The data that Carpus was writing may be missing.</source>
-        <translation>Alles vorher Gespeicherte ist sicher. Was gerade geschrieben wurde, kann fehlen.</translation>
+        <translation>Alles vorher Gespeicherte ist sicher. Die Daten, die Carpus gerade schrieb, können fehlen.</translation>
     </message>
     <message>
         <source>Glue the board onto something stiff and flat, use good light, and hold the board still.</source>
@@ -6215,39 +6215,39 @@ cm</translation>
     </message>
     <message>
         <source>To use another pseudonym, edit the patient.</source>
-        <translation>Wenn ein anderer Name besser ist, ändern Sie ihn beim Patienten.</translation>
+        <translation>Um ein anderes Pseudonym zu verwenden, bearbeiten Sie den Patienten.</translation>
     </message>
     <message>
         <source>If you copied the file, copy it again. Otherwise restore it from a backup.</source>
-        <translation>Wenn sie kopiert wurde, kopieren Sie sie noch einmal. Sonst stellen Sie sie aus einer Sicherung wieder her.</translation>
+        <translation>Wenn Sie die Datei kopiert haben, kopieren Sie sie noch einmal. Sonst stellen Sie sie aus einer Sicherung wieder her.</translation>
     </message>
     <message>
         <source>If the units are wrong, correct the list of frames or state the unit of depth.</source>
-        <translation>Wenn das falsch ist, korrigieren Sie die Bildliste oder geben Sie die Einheit der Tiefe an.</translation>
+        <translation>Wenn die Einheiten falsch sind, korrigieren Sie die Bildliste oder geben Sie die Einheit der Tiefe an.</translation>
     </message>
     <message>
         <source>The session can be opened, but its values may have been altered.</source>
-        <translation>Sie kann geöffnet werden, aber ihre Werte können verändert sein.</translation>
+        <translation>Die Sitzung kann geöffnet werden, aber ihre Werte können verändert sein.</translation>
     </message>
     <message>
         <source>The session is complete.</source>
-        <translation>Sie ist vollständig.</translation>
+        <translation>Die Sitzung ist vollständig.</translation>
     </message>
     <message>
         <source>{subject} does not state whether depth and colour are aligned. Carpus assumes that they are.</source>
-        <translation>Es ist nicht angegeben, ob Tiefe und Farbe in {subject} deckungsgleich sind; Carpus nimmt es an.</translation>
+        <translation>In {subject} ist nicht angegeben, ob Tiefe und Farbe deckungsgleich sind. Carpus nimmt es an.</translation>
     </message>
     <message>
         <source>The session is safe on this computer.</source>
-        <translation>Sie ist auf diesem Computer sicher.</translation>
+        <translation>Die Sitzung ist auf diesem Computer sicher.</translation>
     </message>
     <message>
         <source>The SHA-256 checksum of the file does not match.</source>
-        <translation>Ihre SHA-256-Prüfsumme stimmt nicht.</translation>
+        <translation>Die SHA-256-Prüfsumme der Datei stimmt nicht überein.</translation>
     </message>
     <message>
         <source>Measure a session, or choose the folder that contains the sessions.</source>
-        <translation>Messen Sie eine, oder wählen Sie den Ordner mit den Sitzungen.</translation>
+        <translation>Messen Sie eine Sitzung, oder wählen Sie den Ordner mit den Sitzungen.</translation>
     </message>
     <message>
         <source>You do not need to do anything.</source>
@@ -6255,23 +6255,23 @@ cm</translation>
     </message>
     <message>
         <source>There is no camera calibration for {subject}, so lengths may be wrong by several per cent ({detail}).</source>
-        <translation>Zu {subject} wurde keine Kamerakalibrierung gefunden: Längen können um mehrere Prozent abweichen ({detail}).</translation>
+        <translation>Zu {subject} gibt es keine Kamerakalibrierung, daher können Längen um mehrere Prozent falsch sein ({detail}).</translation>
     </message>
     <message>
         <source>Nothing is lost. Names, images and values stay hidden.</source>
-        <translation>Es ist nichts verloren. Alles bleibt verborgen.</translation>
+        <translation>Es ist nichts verloren. Namen, Bilder und Werte bleiben verborgen.</translation>
     </message>
     <message>
         <source>Open the record again and enter your change once more.</source>
-        <translation>Öffnen Sie ihn noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
+        <translation>Öffnen Sie den Eintrag noch einmal, und geben Sie Ihre Änderung erneut ein.</translation>
     </message>
     <message>
         <source>Restart Carpus to recover what can still be read. If names are missing, restore a backup.</source>
-        <translation>Starten Sie Carpus neu: Es behält, was noch lesbar ist. Wenn Namen fehlen, stellen Sie eine Sicherung wieder her.</translation>
+        <translation>Starten Sie Carpus neu, um wiederherzustellen, was noch lesbar ist. Wenn Namen fehlen, stellen Sie eine Sicherung wieder her.</translation>
     </message>
     <message>
         <source>Restore these files from a backup.</source>
-        <translation>Stellen Sie sie aus einer Sicherung wieder her.</translation>
+        <translation>Stellen Sie diese Dateien aus einer Sicherung wieder her.</translation>
     </message>
     <message>
         <source>Show the board in all parts of the image, tilted to all four sides, near and far. Hold it still.</source>
@@ -6279,19 +6279,19 @@ cm</translation>
     </message>
     <message>
         <source>Some images are smaller than the others and were enlarged: {subject} ({detail}).</source>
-        <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
+        <translation>Einige Bilder sind kleiner als die anderen und wurden vergrößert: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>State in the camera file whether depth and colour are aligned.</source>
-        <translation>Geben Sie es in der Kameradatei an.</translation>
+        <translation>Geben Sie in der Kameradatei an, ob Tiefe und Farbe deckungsgleich sind.</translation>
     </message>
     <message>
         <source>The backup is incomplete: {subject} is missing or cannot be read ({detail} in total).</source>
-        <translation>Die Sicherung ist unvollständig: {subject} fehlt oder kann nicht gelesen werden; insgesamt {detail}.</translation>
+        <translation>Die Sicherung ist unvollständig: {subject} fehlt oder kann nicht gelesen werden (insgesamt {detail}).</translation>
     </message>
     <message>
         <source>The backup failed verification: a file in it differs from the original ({subject}, {detail}).</source>
-        <translation>Die Prüfung der Sicherung ist fehlgeschlagen: Eine zurückgelesene Datei weicht vom Original ab ({subject}, {detail}).</translation>
+        <translation>Die Prüfung der Sicherung ist fehlgeschlagen: Eine Datei darin weicht vom Original ab ({subject}, {detail}).</translation>
     </message>
     <message>
         <source>The clinic’s server does not respond: {subject} ({detail}).</source>
@@ -6307,7 +6307,7 @@ cm</translation>
     </message>
     <message>
         <source>The session folder contains no Carpus data: {subject}.</source>
-        <translation>Der Sitzungsordner enthält nichts von Carpus: {subject}.</translation>
+        <translation>Der Sitzungsordner enthält keine Daten von Carpus: {subject}.</translation>
     </message>
     <message>
         <source>There is no camera type with the name {subject} ({detail}).</source>
@@ -6319,15 +6319,15 @@ cm</translation>
     </message>
     <message>
         <source>The files are no longer listed. Carpus tries to delete them again at each start.</source>
-        <translation>Sie erscheinen in keiner Liste mehr. Carpus versucht es bei jedem Start noch einmal.</translation>
+        <translation>Die Dateien erscheinen in keiner Liste mehr. Carpus versucht bei jedem Start noch einmal, sie zu löschen.</translation>
     </message>
     <message>
         <source>These files were not changed. All other sessions are safe.</source>
-        <translation>Sie wurden nicht verändert. Alle anderen Sitzungen sind sicher.</translation>
+        <translation>Diese Dateien wurden nicht verändert. Alle anderen Sitzungen sind sicher.</translation>
     </message>
     <message>
         <source>This text cannot be used as a name: {detail} ({subject}).</source>
-        <translation>Das kann kein Name sein: {detail} ({subject}).</translation>
+        <translation>Dieser Text kann kein Name sein: {detail} ({subject}).</translation>
     </message>
     <message>
         <source>Two patients had the pseudonym {subject}. The second one now has ({detail}) after it.</source>
@@ -6335,43 +6335,43 @@ cm</translation>
     </message>
     <message>
         <source>Restore the session from a backup.</source>
-        <translation>Verwenden Sie die Datei aus einer Sicherung.</translation>
+        <translation>Stellen Sie die Sitzung aus einer Sicherung wieder her.</translation>
     </message>
     <message>
         <source>Wait until the other program has finished, or choose another folder.</source>
-        <translation>Warten Sie, bis es fertig ist, oder wählen Sie einen anderen Ordner.</translation>
+        <translation>Warten Sie, bis das andere Programm fertig ist, oder wählen Sie einen anderen Ordner.</translation>
     </message>
     <message>
         <source>Wait until the recording has ended, or restart Carpus to complete the session.</source>
-        <translation>Warten Sie, bis die Aufnahme beendet ist, oder starten Sie Carpus neu: Es schließt die Sitzung ab.</translation>
+        <translation>Warten Sie, bis die Aufnahme beendet ist, oder starten Sie Carpus neu, damit es die Sitzung abschließt.</translation>
     </message>
     <message>
         <source>Everything recorded is safe.</source>
-        <translation>Was aufgenommen wurde, ist sicher.</translation>
+        <translation>Alles Aufgenommene ist sicher.</translation>
     </message>
     <message>
         <source>Without the option --scheduler, this computer tracks the recordings.</source>
-        <translation>Ohne --scheduler rechnet dieser Computer.</translation>
+        <translation>Ohne die Option --scheduler wertet dieser Computer die Aufnahmen aus.</translation>
     </message>
     <message>
         <source>You can use the live values of this session.</source>
-        <translation>Sie können die Sitzung so verwenden.</translation>
+        <translation>Sie können die Live-Werte dieser Sitzung verwenden.</translation>
     </message>
     <message>
         <source>The unit of depth is depth_unit_m in camera_info.yaml.</source>
-        <translation>In camera_info.yaml steht sie als depth_unit_m.</translation>
+        <translation>Die Einheit der Tiefe steht als depth_unit_m in camera_info.yaml.</translation>
     </message>
     <message>
         <source>“carpus calibrate-camera --board” writes the board as a PDF to print.</source>
-        <translation>„carpus calibrate-camera --board“ druckt sie.</translation>
+        <translation>„carpus calibrate-camera --board“ schreibt die Tafel als PDF zum Drucken.</translation>
     </message>
     <message>
         <source>“carpus recover” also completes the session.</source>
-        <translation>Auch „carpus recover“ schließt sie ab.</translation>
+        <translation>„carpus recover“ schließt die Sitzung ebenfalls ab.</translation>
     </message>
     <message>
         <source>not a valid TOML file: too many nested tables</source>
-        <translation>kein TOML: endlos verschachtelte Tabellen</translation>
+        <translation>keine gültige TOML-Datei: zu viele verschachtelte Tabellen</translation>
     </message>
     <message>
         <source>on; Carpus corrects it</source>
@@ -6379,7 +6379,7 @@ cm</translation>
     </message>
     <message>
         <source>You can also track the recording again with “carpus track”.</source>
-        <translation>Oder analysieren Sie die Aufnahme mit „carpus track“ neu.</translation>
+        <translation>Sie können die Aufnahme auch mit „carpus track“ neu analysieren.</translation>
     </message>
     <message>
         <source>Continue measuring. If the server still does not respond, ask your IT support.</source>
@@ -6387,35 +6387,35 @@ cm</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, fully in view, about 60 cm away, in good light.</source>
-        <translation>Legen Sie sie flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
+        <translation>Legen Sie die Karte flach unter die Kamera, ganz im Bild, etwa 60 cm entfernt, bei gutem Licht.</translation>
     </message>
     <message>
         <source>“carpus doctor” shows which data folder is used.</source>
-        <translation>„carpus doctor“ zeigt, welcher es ist.</translation>
+        <translation>„carpus doctor“ zeigt, welcher Datenordner verwendet wird.</translation>
     </message>
     <message>
         <source>You can also put the file camera_info.yaml of the camera next to the recording.</source>
-        <translation>Oder legen Sie die camera_info.yaml der Kamera neben die Aufnahme.</translation>
+        <translation>Sie können auch die Datei camera_info.yaml der Kamera neben die Aufnahme legen.</translation>
     </message>
     <message>
         <source>The MDC values were not changed.</source>
-        <translation>Die MDC-Werte bleiben, wie sie sind.</translation>
+        <translation>Die MDC-Werte wurden nicht geändert.</translation>
     </message>
     <message>
         <source>The recording has unusual units, and Carpus converts them: {subject} ({detail}).</source>
-        <translation>Die Aufnahme hat ungewöhnliche Einheiten und wird so gelesen: {subject} ({detail}).</translation>
+        <translation>Die Aufnahme hat ungewöhnliche Einheiten, und Carpus rechnet sie um: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>damaged: reading it needs too much memory</source>
-        <translation>beschädigt: braucht mehr Speicher als jede Sitzung</translation>
+        <translation>beschädigt: Das Lesen braucht zu viel Speicher</translation>
     </message>
     <message>
         <source>Session files are safe. Do not delete the patient list: no other file has the names and notes.</source>
-        <translation>Die Sitzungsdateien sind sicher. Behalten Sie diese Datei: Namen und Notizen stehen nur hier.</translation>
+        <translation>Die Sitzungsdateien sind sicher. Löschen Sie die Patientenliste nicht: Namen und Notizen stehen nur dort.</translation>
     </message>
     <message>
         <source>These sessions cannot be used as a test–retest study: {subject} ({detail}).</source>
-        <translation>Diese Sitzungen sind keine Test-Retest-Studie: {subject} ({detail}).</translation>
+        <translation>Diese Sitzungen lassen sich nicht als Test-Retest-Studie verwenden: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>
@@ -6981,7 +6981,7 @@ cm</translation>
     </message>
     <message>
         <source>A check is valid for one week. If all lengths are wrong by the same percentage, the depth or the print size is wrong.</source>
-        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Anteil ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
+        <translation>Eine Prüfung gilt eine Woche. Weichen alle Längen um denselben Prozentsatz ab, stimmt die Tiefe oder die Druckgröße nicht.</translation>
     </message>
 </context>
 <context>
@@ -7041,7 +7041,7 @@ cm</translation>
     </message>
     <message>
         <source>The sessions cannot be compared, because one of them could not be read.</source>
-        <translation>Kein Vergleich: Eine der beiden Sitzungen konnte nicht gelesen werden.</translation>
+        <translation>Die Sitzungen lassen sich nicht vergleichen, weil eine nicht gelesen werden konnte.</translation>
     </message>
 </context>
 <context>
@@ -7155,15 +7155,15 @@ cm</translation>
     </message>
     <message>
         <source>Drag the label “{marker}” to its marker</source>
-        <translation>Ziehen Sie „{marker}“ auf seinen Marker</translation>
+        <translation>Ziehen Sie „{marker}“ auf den richtigen Marker</translation>
     </message>
     <message>
         <source>All later angles would be wrong. Swap the two labels?</source>
-        <translation>Die Winkel wären ab dort falsch. Die beiden Bezeichnungen tauschen?</translation>
+        <translation>Alle späteren Winkel wären falsch. Die beiden Bezeichnungen tauschen?</translation>
     </message>
     <message>
         <source>This spot is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
-        <translation>Die Stelle liegt {size} mm neben der Position, die zu den anderen Markern passt. Vielleicht ist es ein anderer Marker oder keiner.</translation>
+        <translation>Diese Stelle liegt {size} mm neben der Position, die zu den anderen Markern passt. Vielleicht ist es ein anderer Marker oder keiner.</translation>
     </message>
 </context>
 <context>
@@ -7279,7 +7279,7 @@ cm</translation>
     </message>
     <message>
         <source>Archiving removes it from all lists and results. Everything can be restored.</source>
-        <translation>Entfernt alles aus Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
+        <translation>Archivieren entfernt alles aus Listen und Ergebnissen. Alles lässt sich wiederherstellen.</translation>
     </message>
     <message>
         <source>Delete reports and exports saved elsewhere yourself ({n}): {path}.</source>
@@ -7376,11 +7376,11 @@ cm</translation>
     </message>
     <message>
         <source>The session stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
-        <translation>Sie bleibt in der Liste und lässt sich öffnen, wird aber nicht ausgewertet. Sie können sie wieder einschließen.</translation>
+        <translation>Die Sitzung bleibt in der Liste und lässt sich öffnen, wird aber nicht ausgewertet. Sie können sie wieder einschließen.</translation>
     </message>
     <message>
         <source>practice run</source>
-        <translation>Probe</translation>
+        <translation>Probedurchgang</translation>
     </message>
 </context>
 <context>
@@ -7419,15 +7419,15 @@ cm</translation>
     </message>
     <message>
         <source>Passive from here on</source>
-        <translation>Passiv, und alle danach</translation>
+        <translation>Passiv ab hier</translation>
     </message>
     <message>
         <source>Excluded from the results, but still shown on the curves and mentioned in the report.</source>
-        <translation>Aus den Ergebnissen ausgeschlossen; in den Kurven weiter gezeigt und im Bericht erwähnt.</translation>
+        <translation>Aus den Ergebnissen ausgeschlossen, aber weiter in den Kurven gezeigt und im Bericht erwähnt.</translation>
     </message>
     <message>
         <source>practice run</source>
-        <translation>Probe</translation>
+        <translation>Probedurchgang</translation>
     </message>
 </context>
 <context>
@@ -7510,7 +7510,7 @@ cm</translation>
     </message>
     <message>
         <source>Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.</source>
-        <translation>Nötig, um Marker später zu sehen und zu korrigieren: {size} MB je Minute, Platz für {time}.</translation>
+        <translation>Nötig, um Marker später zu sehen und zu korrigieren. Braucht {size} MB je Minute; Platz für {time}.</translation>
     </message>
     <message>
         <source>Next</source>
@@ -7646,7 +7646,7 @@ cm</translation>
     </message>
     <message>
         <source>inferred from PIP</source>
-        <translation>aus dem PIP abgeleitet</translation>
+        <translation>vom PIP abgeleitet</translation>
     </message>
     <message>
         <source>inferred</source>
@@ -7751,11 +7751,11 @@ cm</translation>
     </message>
     <message>
         <source>1 marker left to click</source>
-        <translation>Noch 1 Marker</translation>
+        <translation>noch 1 Marker</translation>
     </message>
     <message>
         <source>{count} markers left to click</source>
-        <translation>Noch {count} Marker</translation>
+        <translation>noch {count} Marker</translation>
     </message>
 </context>
 <context>
@@ -7801,7 +7801,7 @@ von oben</translation>
     </message>
     <message>
         <source>The image shows only the hand and its angle. Face, room and name are removed. If the hand does not move in the image plane, the angle is only written, not drawn.</source>
-        <translation>Die Hand allein mit ihrem Winkel. Gesicht und Raum sind entfernt, es steht kein Name dabei. Liegt die Bewegung nicht in der Bildebene, steht der Winkel nur in Worten da.</translation>
+        <translation>Das Bild zeigt nur die Hand und ihren Winkel. Gesicht, Raum und Name sind entfernt. Bewegt sich die Hand nicht in der Bildebene, wird der Winkel nur angegeben, nicht gezeichnet.</translation>
     </message>
 </context>
 <context>
@@ -7871,7 +7871,7 @@ von oben</translation>
     </message>
     <message>
         <source>Times a &amp;day</source>
-        <translation>Mal am Ta&amp;g</translation>
+        <translation>Wie oft am Ta&amp;g</translation>
     </message>
     <message>
         <source>&amp;Message to the patient (no names)</source>
@@ -7879,7 +7879,7 @@ von oben</translation>
     </message>
     <message>
         <source>Message: {count} characters too long</source>
-        <translation>Mitteilung: {count} Zeichen zu lang</translation>
+        <translation>Mitteilung: {count} Zeichen zu viel</translation>
     </message>
 </context>
 <context>
@@ -8230,7 +8230,7 @@ von oben</translation>
     </message>
     <message>
         <source>Entries are added and never changed. The log protects against mistakes, not against someone with full access to this computer. It stores no names: those shown here come from the patient list.</source>
-        <translation>Einträge kommen nur hinzu und werden nie geändert. Das Protokoll schützt vor Versehen, nicht vor jemandem mit vollem Zugriff auf diesen Computer. Es speichert keine Namen. Sie werden aus der Patientenliste angezeigt.</translation>
+        <translation>Einträge kommen nur hinzu und werden nie geändert. Das Protokoll schützt vor Versehen, nicht vor jemandem mit vollem Zugriff auf diesen Computer. Es speichert keine Namen: Die hier gezeigten stammen aus der Patientenliste.</translation>
     </message>
 </context>
 <context>
@@ -8343,7 +8343,7 @@ von oben</translation>
     </message>
     <message>
         <source>Manual and Carpus values are kept separate</source>
-        <translation>Manuelle und Carpus-Werte bleiben getrennt</translation>
+        <translation>Manuelle Werte und Carpus-Werte bleiben getrennt</translation>
     </message>
     <message>
         <source>Some values of this or another hand or day are not saved yet.</source>
@@ -8394,7 +8394,7 @@ von oben</translation>
     </message>
     <message>
         <source>{name} over time</source>
-        <translation>{name} über die Tage</translation>
+        <translation>{name} im Verlauf der Tage</translation>
     </message>
 </context>
 <context>
@@ -8467,15 +8467,15 @@ von oben</translation>
     </message>
     <message>
         <source>The labels on this image would be lost.</source>
-        <translation>Die Bezeichnungen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
+        <translation>Die Bezeichnungen auf diesem Bild gingen verloren.</translation>
     </message>
     <message>
         <source>Do not change it</source>
-        <translation>So lassen</translation>
+        <translation>Nicht ändern</translation>
     </message>
     <message>
         <source>Open the recording again</source>
-        <translation>Noch einmal öffnen</translation>
+        <translation>Aufnahme neu öffnen</translation>
     </message>
 </context>
 <context>
@@ -8650,7 +8650,7 @@ von oben</translation>
     </message>
     <message>
         <source>What happened? Enter no names.</source>
-        <translation>Was ist geschehen? Keine Namen.</translation>
+        <translation>Was ist geschehen? Keine Namen eingeben.</translation>
     </message>
     <message>
         <source>Active from here on</source>
@@ -8720,7 +8720,7 @@ von oben</translation>
     </message>
     <message>
         <source>inferred from PIP</source>
-        <translation>aus dem PIP abgeleitet</translation>
+        <translation>vom PIP abgeleitet</translation>
     </message>
 </context>
 <context>
@@ -8735,7 +8735,7 @@ von oben</translation>
     </message>
     <message>
         <source>If pain is 5 or more, or has risen by 2, stop the exercise. Keys: 0 to 9. For 10, press 1, then 0.</source>
-        <translation>Ab 5, oder bei 2 mehr als zuvor: Beenden Sie die Übung. Tasten: 0 bis 9; 1 und 0 für 10.</translation>
+        <translation>Bei Schmerz ab 5 oder einem Anstieg um 2 die Übung beenden. Tasten: 0 bis 9. Für 10 erst 1, dann 0 drücken.</translation>
     </message>
 </context>
 <context>
@@ -8992,7 +8992,7 @@ von oben</translation>
     </message>
     <message>
         <source>Pseudonym: {count} characters too long</source>
-        <translation>Pseudonym: {count} Zeichen zu lang</translation>
+        <translation>Pseudonym: {count} Zeichen zu viel</translation>
     </message>
     <message>
         <source>Enter a pseudonym.</source>
@@ -9008,7 +9008,7 @@ von oben</translation>
     </message>
     <message>
         <source>The pseudonym is shown on all screens and can be spoken aloud: no real name, no initials, no birth date. Real name, birth date, record number, sex and diagnosis are optional. They stay in the patient list and are never in a session file or an export.</source>
-        <translation>Das Pseudonym steht auf allen Bildschirmen und kann laut gesagt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in der Patientenliste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
+        <translation>Das Pseudonym steht auf allen Bildschirmen und darf laut genannt werden: kein echter Name, keine Initialen, kein Geburtsdatum. Echter Name, Geburtsdatum, Aktennummer, Geschlecht und Diagnose sind freiwillig. Sie bleiben in der Patientenliste und kommen nie in eine Sitzungsdatei oder einen Export.</translation>
     </message>
 </context>
 <context>
@@ -9193,7 +9193,7 @@ von oben</translation>
     </message>
     <message>
         <source>Mark as passive or excluded (X). [ and ] select another repetition.</source>
-        <translation>Passiv oder ausgeschlossen (X); [ und ] wählen eine andere</translation>
+        <translation>Als passiv oder ausgeschlossen kennzeichnen (X). [ und ] wählen eine andere Wiederholung.</translation>
     </message>
 </context>
 <context>
@@ -9570,7 +9570,7 @@ von oben</translation>
     </message>
     <message>
         <source>Records past their retention period</source>
-        <translation>Fällige Unterlagen</translation>
+        <translation>Abgelaufene Aufbewahrung</translation>
     </message>
 </context>
 <context>
@@ -9667,7 +9667,7 @@ von oben</translation>
     </message>
     <message>
         <source>Past r&amp;etention period…</source>
-        <translation>&amp;Fällige Unterlagen…</translation>
+        <translation>Abgelau&amp;fene Aufbewahrung…</translation>
     </message>
 </context>
 <context>
@@ -9784,7 +9784,7 @@ von oben</translation>
     </message>
     <message>
         <source>Placeholders for the session’s values: {places}</source>
-        <translation>Diese Platzhalter nehmen die Werte der Sitzung auf: {places}</translation>
+        <translation>Diese Platzhalter werden durch Werte der Sitzung ersetzt: {places}</translation>
     </message>
     <message>
         <source>Warnings, method and the legal notice are always printed.</source>
@@ -9859,11 +9859,11 @@ von oben</translation>
     </message>
     <message>
         <source>{pages}, readable in black and white. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, in Grau lesbar. Enthält den echten Namen: sicher aufbewahren.</translation>
+        <translation>{pages}, auch in Schwarz-Weiß lesbar. Enthält den echten Namen des Patienten: sicher aufbewahren.</translation>
     </message>
     <message>
         <source>{pages}, readable in black and white. Contains the pseudonym, not the real name.</source>
-        <translation>{pages}, auch in Grau lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
+        <translation>{pages}, auch in Schwarz-Weiß lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
     </message>
 </context>
 <context>
@@ -9917,7 +9917,7 @@ von oben</translation>
     </message>
     <message>
         <source>You can continue working. The old result stays until you choose the new one. “Stop” keeps the old result.</source>
-        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. Stopp behält das alte Ergebnis.</translation>
+        <translation>Sie können weiterarbeiten. Das alte Ergebnis bleibt, bis Sie das neue wählen. „Stopp“ behält das alte Ergebnis.</translation>
     </message>
 </context>
 <context>
@@ -10017,15 +10017,15 @@ von oben</translation>
     </message>
     <message>
         <source>The other results were not changed.</source>
-        <translation>Die anderen bleiben, wie sie waren.</translation>
+        <translation>Die anderen Ergebnisse wurden nicht verändert.</translation>
     </message>
     <message>
         <source>It was saved again as the newest result.</source>
-        <translation>Es wurde noch einmal als neuestes gespeichert.</translation>
+        <translation>Es wurde noch einmal als neuestes Ergebnis gespeichert.</translation>
     </message>
     <message>
         <source>no frame of this session was saved</source>
-        <translation>es wurde kein Bild davon gespeichert</translation>
+        <translation>von dieser Sitzung wurde kein Bild gespeichert</translation>
     </message>
 </context>
 <context>
@@ -10068,7 +10068,7 @@ von oben</translation>
     </message>
     <message>
         <source>Moves towards the camera: not drawn</source>
-        <translation>Zur Kamera hin: gemessen, nicht gezeichnet</translation>
+        <translation>Bewegung zur Kamera hin: nicht gezeichnet</translation>
     </message>
 </context>
 <context>
@@ -10179,11 +10179,11 @@ von oben</translation>
     </message>
     <message>
         <source>Show &amp;progress</source>
-        <translation>&amp;Verlauf zeigen</translation>
+        <translation>&amp;Verlauf anzeigen</translation>
     </message>
     <message>
         <source>The session will move from {name}’s progress to the other patient’s.</source>
-        <translation>Sie wechselt vom Verlauf von {name} in den des anderen Patienten.</translation>
+        <translation>Die Sitzung wechselt vom Verlauf von {name} in den des anderen Patienten.</translation>
     </message>
     <message>
         <source>Tick two sessions to compare</source>
@@ -10456,7 +10456,7 @@ von oben</translation>
     </message>
     <message>
         <source>A second screen or window shows the patient what to do. Open it while measuring. For each exercise, choose whether it speaks to a child or an adult.</source>
-        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
+        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt dem Patienten, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
     </message>
     <message>
         <source>As published: deviation first</source>
@@ -10464,7 +10464,7 @@ von oben</translation>
     </message>
     <message>
         <source>In the demo, settings apply until it is closed.</source>
-        <translation>Demo: Einstellungen gelten, bis sie geschlossen wird.</translation>
+        <translation>In der Demo gelten Einstellungen nur bis zum Schließen.</translation>
     </message>
     <message>
         <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
@@ -10510,7 +10510,7 @@ von oben</translation>
     </message>
     <message>
         <source>A bent finger is measured from its own resting position, which is less accurate.</source>
-        <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, mit geringerer Sicherheit.</translation>
+        <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen und daher weniger genau.</translation>
     </message>
 </context>
 <context>
@@ -10582,7 +10582,7 @@ von oben</translation>
     </message>
     <message>
         <source>Available after the recording</source>
-        <translation>Nach der Aufnahme</translation>
+        <translation>Nach der Aufnahme verfügbar</translation>
     </message>
 </context>
 <context>
@@ -10693,7 +10693,7 @@ von oben</translation>
     </message>
     <message>
         <source>This is a simulated hand, not {name}. It is excluded from analysis.</source>
-        <translation>Simulierte Hand: nicht {name}, von der Auswertung ausgeschlossen.</translation>
+        <translation>Dies ist eine simulierte Hand, nicht {name}. Sie ist von der Auswertung ausgeschlossen.</translation>
     </message>
     <message>
         <source>{words}, {lost} frames dropped</source>
@@ -10778,11 +10778,11 @@ von oben</translation>
     </message>
     <message>
         <source>In the display settings, choose a higher resolution or a smaller scale: {width} × {height} or more.</source>
-        <translation>Wählen Sie in den Anzeigeeinstellungen mehr Pixel oder eine kleinere Skalierung: {width} × {height} oder mehr.</translation>
+        <translation>Wählen Sie in den Anzeigeeinstellungen eine höhere Auflösung oder eine kleinere Skalierung: {width} × {height} oder mehr.</translation>
     </message>
     <message>
         <source>the fonts of Carpus cannot be loaded</source>
-        <translation>die Schriften von Carpus sind nicht nutzbar</translation>
+        <translation>die Schriften von Carpus lassen sich nicht laden</translation>
     </message>
 </context>
 <context>
@@ -10890,7 +10890,7 @@ von oben</translation>
     </message>
     <message>
         <source>Measure without the patient list</source>
-        <translation>Ohne die Liste messen</translation>
+        <translation>Ohne die Patientenliste messen</translation>
     </message>
 </context>
 </TS>

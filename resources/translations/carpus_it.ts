@@ -4577,7 +4577,7 @@
     </message>
     <message>
         <source>Nothing was changed.</source>
-        <translation>Tutto è come prima.</translation>
+        <translation>Non è stato modificato nulla.</translation>
     </message>
     <message>
         <source>Nothing was changed. New recordings are kept on this computer.</source>
@@ -5621,19 +5621,19 @@
     </message>
     <message>
         <source>The sessions are shown side by side, but not compared.</source>
-        <translation>Mostrate affiancate, senza confronto.</translation>
+        <translation>Le sedute sono mostrate affiancate, ma non confrontate.</translation>
     </message>
     <message>
         <source>The image is too dark: add light.</source>
-        <translation>Più luce: l’immagine è troppo scura.</translation>
+        <translation>L’immagine è troppo scura: aggiungere luce.</translation>
     </message>
     <message>
         <source>Tilt the board less: the camera sees it almost edge-on.</source>
-        <translation>Girarla meno: si vede quasi di taglio.</translation>
+        <translation>Inclinare meno la tavola: si vede quasi di taglio.</translation>
     </message>
     <message>
         <source>The image is blurred: hold the board still, or add light.</source>
-        <translation>Non nitida: tenerla ferma o dare più luce.</translation>
+        <translation>L’immagine non è nitida: tenere ferma la tavola o aggiungere luce.</translation>
     </message>
     <message>
         <source>Calculate · more positions and tilts</source>
@@ -5641,11 +5641,11 @@
     </message>
     <message>
         <source>The board is not visible: show the whole board, flat, in even light.</source>
-        <translation>Tavola non vista: mostrarla tutta, piatta, con luce uniforme.</translation>
+        <translation>Tavola non visibile: mostrarla per intero, ben piana, con luce uniforme.</translation>
     </message>
     <message>
         <source>Depth–colour alignment</source>
-        <translation>Profondità e colore</translation>
+        <translation>Allineamento profondità-colore</translation>
     </message>
     <message>
         <source>depth registration is off</source>
@@ -5653,7 +5653,7 @@
     </message>
     <message>
         <source>This camera reports no serial number, so its calibration cannot be saved here. IT support can write it to a camera file with “carpus calibrate-camera --output” and enter that file in the settings.</source>
-        <translation>Questa telecamera non indica un numero di serie, quindi la calibrazione non può essere salvata qui. Il supporto informatico può scriverla in un file con “carpus calibrate-camera --output” e indicare quel file nelle impostazioni.</translation>
+        <translation>Questa telecamera non comunica un numero di serie, quindi la sua calibrazione non può essere salvata qui. Il supporto informatico può scriverla in un file della telecamera con “carpus calibrate-camera --output” e indicare quel file nelle impostazioni.</translation>
     </message>
     <message>
         <source>Show the next angle as the large number</source>
@@ -5665,11 +5665,11 @@
     </message>
     <message>
         <source>Move the start or end of the repetition earlier</source>
-        <translation>Anticipa il limite della ripetizione</translation>
+        <translation>Anticipa l’inizio o la fine della ripetizione</translation>
     </message>
     <message>
         <source>Move the start or end of the repetition later</source>
-        <translation>Posticipa il limite della ripetizione</translation>
+        <translation>Posticipa l’inizio o la fine della ripetizione</translation>
     </message>
     <message>
         <source>Zoom in on the curves</source>
@@ -5681,7 +5681,7 @@
     </message>
     <message>
         <source>Show the whole recording</source>
-        <translation>Mostra le curve intere</translation>
+        <translation>Mostra l’intera registrazione</translation>
     </message>
     <message>
         <source>Select the previous session</source>
@@ -5693,19 +5693,19 @@
     </message>
     <message>
         <source>Previous frame (correction)</source>
-        <translation>Fotogramma precedente da correggere</translation>
+        <translation>Fotogramma precedente (correzione)</translation>
     </message>
     <message>
         <source>Next frame (correction)</source>
-        <translation>Fotogramma seguente da correggere</translation>
+        <translation>Fotogramma seguente (correzione)</translation>
     </message>
     <message>
         <source>Undo the last step</source>
-        <translation>Annulla un passo</translation>
+        <translation>Annulla l’ultimo passo</translation>
     </message>
     <message>
         <source>Save an image of the hand only</source>
-        <translation>Questo fotogramma con la sola mano</translation>
+        <translation>Salva un’immagine della sola mano</translation>
     </message>
     <message>
         <source>Tick a session for comparison</source>
@@ -5713,23 +5713,23 @@
     </message>
     <message>
         <source>Show the whole image or only the hand</source>
-        <translation>Fotogramma intero o area della mano</translation>
+        <translation>Mostra tutta l’immagine o solo la mano</translation>
     </message>
     <message>
         <source>Open or close the patient’s view</source>
-        <translation>Apri e chiudi la vista del paziente</translation>
+        <translation>Apri o chiudi la vista del paziente</translation>
     </message>
     <message>
         <source>Undo the last click</source>
-        <translation>Annulla l’ultimo marcatore</translation>
+        <translation>Annulla l’ultimo clic</translation>
     </message>
     <message>
         <source>Swap two labels</source>
-        <translation>Scambia due marcatori</translation>
+        <translation>Scambia due etichette</translation>
     </message>
     <message>
         <source>Click the marker again</source>
-        <translation>Rifai il clic</translation>
+        <translation>Rifai il clic sul marcatore</translation>
     </message>
     <message>
         <source>No angle yet</source>
@@ -5737,15 +5737,15 @@
     </message>
     <message>
         <source>{marker} often occluded</source>
-        <translation>{marker} spesso coperto</translation>
+        <translation>Spesso nascosto: {marker}</translation>
     </message>
     <message>
         <source>{count} markers often occluded</source>
-        <translation>{count} marcatori spesso coperti</translation>
+        <translation>{count} marcatori spesso nascosti</translation>
     </message>
     <message>
         <source>The line of each finger should run from the wrist to the fingertip. To change a label, drag it to another marker.</source>
-        <translation>La linea di ogni dito va dal polso alla punta. Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
+        <translation>La linea di ogni dito deve andare dal polso alla punta. Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
     </message>
     <message>
         <source>all {count} found</source>
@@ -5757,11 +5757,11 @@
     </message>
     <message>
         <source>mean ± SD of the repetitions</source>
-        <translation>media, ± DS fra ripetizioni</translation>
+        <translation>media ± DS delle ripetizioni</translation>
     </message>
     <message>
         <source>α and γ are shown only where their SD is below 30° ({share} of the time). Near the neutral position, only β and α + γ can be measured.</source>
-        <translation>α e γ sono indicati dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra sono noti solo β e α + γ.</translation>
+        <translation>α e γ sono indicati solo dove la loro DS resta sotto 30° ({share} del tempo): vicino alla posizione neutra si possono determinare solo β e α + γ.</translation>
     </message>
     <message>
         <source>{name}, across the palm</source>
@@ -5769,27 +5769,27 @@
     </message>
     <message>
         <source>Plausible position while occluded</source>
-        <translation>Posizione plausibile mentre è nascosto</translation>
+        <translation>Posizione plausibile quando nascosta</translation>
     </message>
     <message>
         <source>Position within 15° while occluded</source>
-        <translation>Posizione entro 15° mentre è nascosto</translation>
+        <translation>Posizione entro 15° quando nascosta</translation>
     </message>
     <message>
         <source>Position jump when visible again</source>
-        <translation>Salto alla ricomparsa</translation>
+        <translation>Salto di posizione alla ricomparsa</translation>
     </message>
     <message>
         <source>Delay of {other} after {one}</source>
-        <translation>{other} dopo {one}: ritardo</translation>
+        <translation>Ritardo: {other} dopo {one}</translation>
     </message>
     <message>
         <source>Involuntary movement of {other} with {one}</source>
-        <translation>Trascinamento di {other} da {one}</translation>
+        <translation>Movimento associato: {other} con {one}</translation>
     </message>
     <message>
         <source>DIP not measured: TAM uses two thirds of the PIP flexion.</source>
-        <translation>IFD non misurata: il TAM assume due terzi della IFP.</translation>
+        <translation>IFD non misurata: per il TAM si assumono due terzi della flessione IFP.</translation>
     </message>
     <message>
         <source>with the axes of the hand along the path</source>
@@ -5797,19 +5797,19 @@
     </message>
     <message>
         <source>band: ± 1 SD; black: α + γ</source>
-        <translation>fascia: ± 1 DS; nero: α + γ, con γ</translation>
+        <translation>fascia: ± 1 DS; nero: α + γ</translation>
     </message>
     <message>
         <source>mean ± SD; right column: {day}</source>
-        <translation>media ± DS; a destra: {day}</translation>
+        <translation>media ± DS; colonna destra: {day}</translation>
     </message>
     <message>
         <source>Made with Carpus {version}</source>
-        <translation>Prodotto da Carpus {version}</translation>
+        <translation>Prodotto con Carpus {version}</translation>
     </message>
     <message>
         <source>measured with Carpus {versions}</source>
-        <translation>misurato da Carpus {versions}</translation>
+        <translation>misurato con Carpus {versions}</translation>
     </message>
     <message>
         <source>grey: repetitions; band: ± 1 SD of the angle</source>
@@ -5821,7 +5821,7 @@
     </message>
     <message>
         <source>live values, not smoothed</source>
-        <translation>valori dal vivo, non filtrati</translation>
+        <translation>valori dal vivo, senza smoothing</translation>
     </message>
     <message>
         <source>repetition {number} excluded: {reason}</source>
@@ -5849,11 +5849,11 @@
     </message>
     <message>
         <source>The wrist angles are in the order of the ISB (flexion first).</source>
-        <translation>Gli angoli del polso sono nell’ordine ISB.</translation>
+        <translation>Gli angoli del polso sono nell’ordine ISB (prima la flessione).</translation>
     </message>
     <message>
         <source>{depth} below the wrist marker (scatter {residual})</source>
-        <translation>{depth} sotto il marcatore (dispersione {residual})</translation>
+        <translation>{depth} sotto il marcatore del polso (dispersione {residual})</translation>
     </message>
     <message>
         <source>Peak speed, mean ± SD</source>
@@ -5881,7 +5881,7 @@
     </message>
     <message>
         <source>Largest flexion of each joint; ± is the SD between repetitions.</source>
-        <translation>Ogni articolazione alla massima flessione; ± è la DS fra le ripetizioni.</translation>
+        <translation>Massima flessione di ogni articolazione; ± è la DS fra le ripetizioni.</translation>
     </message>
     <message>
         <source>Hand exercises at home</source>
@@ -5897,99 +5897,99 @@
     </message>
     <message>
         <source>Notes and questions for your next appointment</source>
-        <translation>Note, o che cosa chiedere la prossima volta</translation>
+        <translation>Note e domande per il prossimo appuntamento</translation>
     </message>
     <message>
         <source>Movement in the other directions</source>
-        <translation>Movimento degli altri angoli</translation>
+        <translation>Movimento nelle altre direzioni</translation>
     </message>
     <message>
         <source>Grades of finger motion</source>
-        <translation>Valutazioni</translation>
+        <translation>Valutazione della mobilità delle dita</translation>
     </message>
     <message>
         <source>Check the camera again: a check is due once a week.</source>
-        <translation>Controllarla di nuovo: una volta alla settimana.</translation>
+        <translation>Controllare di nuovo la telecamera: va controllata una volta alla settimana.</translation>
     </message>
     <message>
         <source>Saved for the camera with serial number {serial}. Values of earlier sessions do not change.</source>
-        <translation>Viene salvata per questa telecamera, numero {serial}. Le sedute precedenti mantengono i loro valori.</translation>
+        <translation>Salvata per la telecamera con numero di serie {serial}. I valori delle sedute precedenti non cambiano.</translation>
     </message>
     <message>
         <source>Positions: {count} of {all} fields covered (at least {least} needed)</source>
-        <translation>Posizioni: {count} riquadri su {all}, almeno {least}</translation>
+        <translation>Posizioni: {count} riquadri su {all} (almeno {least})</translation>
     </message>
     <message>
         <source>Show the board in other positions and at other tilts</source>
-        <translation>Mostrare la tavola in altri punti, inclinata in altro modo</translation>
+        <translation>Mostrare la tavola in altre posizioni, con altre inclinazioni</translation>
     </message>
     <message>
         <source>Correction not kept for {names}. Correct a later frame too.</source>
-        <translation>Non mantenute: {names}. Correggere anche un fotogramma successivo.</translation>
+        <translation>Correzione non mantenuta: {names}. Correggere anche un fotogramma successivo.</translation>
     </message>
     <message>
         <source>Image taken. Move the board to another position.</source>
-        <translation>Immagine acquisita. Ora un’altra posizione.</translation>
+        <translation>Immagine acquisita. Spostare la tavola in un’altra posizione.</translation>
     </message>
     <message>
         <source>Nothing was changed. Turn on depth registration in the camera settings.</source>
-        <translation>Nulla è stato cambiato. Attivare l’allineamento profondità-colore nelle impostazioni della telecamera.</translation>
+        <translation>Non è stato modificato nulla. Attivare l’allineamento profondità-colore nelle impostazioni della telecamera.</translation>
     </message>
     <message>
         <source>too few images with depth values of the board</source>
-        <translation>troppo poche immagini con profondità sulla tavola</translation>
+        <translation>troppo poche immagini con valori di profondità sulla tavola</translation>
     </message>
     <message>
         <source>mean of Carpus and reference · one point every 0.2 s, {count} points</source>
-        <translation>media di entrambi · un punto ogni 0,2 s, {count} punti</translation>
+        <translation>media di Carpus e riferimento · un punto ogni 0,2 s, {count} punti</translation>
     </message>
     <message>
         <source>mean of Carpus and reference · one point per reading, {count} readings</source>
-        <translation>media di entrambi · un punto per lettura, {count} letture</translation>
+        <translation>media di Carpus e riferimento · un punto per lettura, {count} letture</translation>
     </message>
     <message>
         <source>Correlation of flexion, {one}–{other} (r)</source>
-        <translation>Flessione congiunta, {one}–{other} (r)</translation>
+        <translation>Correlazione della flessione, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>Marker labels were corrected manually. The original result is kept.</source>
-        <translation>I marcatori sono stati corretti manualmente. Il risultato originale è conservato.</translation>
+        <translation>Le etichette dei marcatori sono state corrette manualmente. Il risultato originale è conservato.</translation>
     </message>
     <message>
         <source>Measured manually, not by Carpus: {values}.</source>
-        <translation>Misure manuali, non eseguite da Carpus: {values}.</translation>
+        <translation>Misurati manualmente, non da Carpus: {values}.</translation>
     </message>
     <message>
         <source>each movement was shorter than 0.4 s</source>
-        <translation>ognuna più breve di 0,4 s</translation>
+        <translation>ogni movimento è durato meno di 0,4 s</translation>
     </message>
     <message>
         <source>This clinic measured the MDC95 (measurement error) on {date} with {count} people. Where it was not measured, Carpus uses an expert default. The MDC applies to the same markers, side and set-up.</source>
-        <translation>MDC95 (errore di misura): misurata da questo centro in data {date} con {count} persone. Altrimenti è il valore predefinito degli esperti di Carpus. Vale a parità di marcatori, lato e preparazione.</translation>
+        <translation>Questo centro ha misurato l’MDC95 (errore di misura) in data {date} con {count} persone. Dove non è stata misurata, Carpus usa un valore predefinito stabilito da esperti. L’MDC vale a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>Until the clinic has measured its own MDC (measurement error), Carpus uses an expert default, not a published value. For a total arc, which has two ends, the MDC is √2 times as large. It applies to the same markers, side and set-up.</source>
-        <translation>MDC (errore di misura): è il valore predefinito degli esperti di Carpus, non pubblicato, finché il centro non ha misurato il proprio. Per un arco totale, che ha due estremi, è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
+        <translation>Finché il centro non ha misurato la propria MDC (errore di misura), Carpus usa un valore predefinito stabilito da esperti, non pubblicato. Per un arco totale, che ha due estremi, l’MDC è √2 volte più grande. Vale a parità di marcatori, lato e preparazione.</translation>
     </message>
     <message>
         <source>{sign}: manual measurement of that day, active / passive. It is not combined with the other values.</source>
-        <translation>{sign}: misura manuale di quel giorno, attiva / passiva; non combinata con gli altri valori.</translation>
+        <translation>{sign}: misura manuale di quel giorno, attiva / passiva. Non si combina con gli altri valori.</translation>
     </message>
     <message>
         <source>Check the camera once more, then calibrate it. If it is still out of tolerance, do not measure with it.</source>
-        <translation>Ripetere il controllo, poi calibrare la telecamera. Se è ancora fuori tolleranza, non misurare con essa.</translation>
+        <translation>Controllare ancora una volta la telecamera, poi calibrarla. Se è ancora fuori tolleranza, non misurare con essa.</translation>
     </message>
     <message>
         <source>{movement} {goal} (mean {mean}; beyond measurement error from {limit})</source>
-        <translation>{movement} {goal} (media {mean}; un guadagno si riconosce da {limit})</translation>
+        <translation>{movement} {goal} (media {mean}; oltre l’errore di misura da {limit})</translation>
     </message>
     <message>
         <source>all lengths are {share} % too long, by up to {length} mm</source>
-        <translation>tutte le lunghezze sono maggiori del {share} %, al massimo di {length} mm</translation>
+        <translation>tutte le lunghezze sono troppo grandi ({share} %, al massimo {length} mm)</translation>
     </message>
     <message>
         <source>all lengths are {share} % too short, by up to {length} mm</source>
-        <translation>tutte le lunghezze sono minori del {share} %, al massimo di {length} mm</translation>
+        <translation>tutte le lunghezze sono troppo piccole ({share} %, al massimo {length} mm)</translation>
     </message>
     <message>
         <source>{name}, mean ± SD</source>
@@ -5997,7 +5997,7 @@
     </message>
     <message>
         <source>Show speeds or angles</source>
-        <translation>Velocità o angoli</translation>
+        <translation>Mostra velocità o angoli</translation>
     </message>
     <message>
         <source>Percentage of the other hand’s TAM or, if not known, of the reference value of 260° (thumb 140°). ASSH: excellent from 100 %, good above 75 %, fair above 50 %, otherwise poor.</source>
@@ -6005,7 +6005,7 @@
     </message>
     <message>
         <source>Check the camera again: it has been calibrated since the last check.</source>
-        <translation>Ripetere il controllo: da allora è stata ricalibrata.</translation>
+        <translation>Controllare di nuovo la telecamera: dopo l’ultimo controllo è stata calibrata.</translation>
     </message>
     <message>
         <source>Tip to
@@ -6059,7 +6059,7 @@ cm</translation>
     </message>
     <message>
         <source>Click the centre of the marker again, and keep the hand still.</source>
-        <translation>Fare di nuovo clic al suo centro e tenere ferma la mano.</translation>
+        <translation>Fare di nuovo clic al centro del marcatore e tenere ferma la mano.</translation>
     </message>
     <message>
         <source>Click the centre of the {markers} again, or cover the other spot.</source>
@@ -6067,7 +6067,7 @@ cm</translation>
     </message>
     <message>
         <source>Cover the spot with the question mark, or give it the correct label.</source>
-        <translation>Coprire il punto con il punto interrogativo, o dargli la sua etichetta.</translation>
+        <translation>Coprire il punto con il punto interrogativo, o dargli l’etichetta giusta.</translation>
     </message>
     <message>
         <source>The {markers} does not fit the other markers: no hand has this shape.</source>
@@ -6075,15 +6075,15 @@ cm</translation>
     </message>
     <message>
         <source>The camera is connected again: {subject} (disconnected for {detail}).</source>
-        <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
+        <translation>La telecamera è di nuovo collegata: {subject} (scollegata per {detail}).</translation>
     </message>
     <message>
         <source>The hand length is {value} mm (the limit is {limit} mm).</source>
-        <translation>La mano misura {value} mm (il limite è {limit} mm).</translation>
+        <translation>La lunghezza della mano è di {value} mm (limite: {limit} mm).</translation>
     </message>
     <message>
         <source>The hand length is {value} mm. Last time it was {limit} mm.</source>
-        <translation>La mano misura {value} mm, l’ultima volta {limit} mm.</translation>
+        <translation>La lunghezza della mano è di {value} mm. L’ultima volta era di {limit} mm.</translation>
     </message>
     <message>
         <source>The hand was still for only {value} frames ({limit} or more are good).</source>
@@ -6091,67 +6091,67 @@ cm</translation>
     </message>
     <message>
         <source>The pseudonym {subject} belongs to another patient.</source>
-        <translation>Il nome {subject} appartiene a un altro paziente.</translation>
+        <translation>Lo pseudonimo {subject} appartiene a un altro paziente.</translation>
     </message>
     <message>
         <source>The labels seem to be shifted: the marker clicked as {first} is probably the {second}.</source>
-        <translation>Le etichette sembrano spostate: il marcatore indicato come {first} è in realtà {second}.</translation>
+        <translation>Le etichette sembrano spostate: il marcatore indicato come {first} è probabilmente {second}.</translation>
     </message>
     <message>
         <source>The Dask scheduler at {subject} does not respond ({detail}).</source>
-        <translation>Lo scheduler all’indirizzo {subject} non risponde ({detail}).</translation>
+        <translation>Lo scheduler Dask all’indirizzo {subject} non risponde ({detail}).</translation>
     </message>
     <message>
         <source>This camera does not align depth with colour, so depths at the markers will be wrong.</source>
-        <translation>Questa telecamera non allinea la profondità al colore. La profondità si misura quindi accanto ai marcatori.</translation>
+        <translation>Questa telecamera non allinea la profondità al colore, quindi la profondità dei marcatori è errata.</translation>
     </message>
     <message>
         <source>Unplug the camera, plug it in again, then restart the measurement.</source>
-        <translation>Scollegare la telecamera, ricollegarla e ricominciare.</translation>
+        <translation>Scollegare la telecamera, ricollegarla e riavviare la misurazione.</translation>
     </message>
     <message>
         <source>Use a C3D, TRC or MOT file, a CSV table with its column map, or a session.</source>
-        <translation>Usare C3D, TRC, MOT, una tabella CSV con la mappa delle colonne, o una seduta.</translation>
+        <translation>Usare un file C3D, TRC o MOT, una tabella CSV con la mappa delle colonne, o una seduta.</translation>
     </message>
     <message>
         <source>Use a camera with colour and depth, such as the Asus Xtion.</source>
-        <translation>Usare una telecamera con colore e profondità, come la Xtion.</translation>
+        <translation>Usare una telecamera con colore e profondità, come la Asus Xtion.</translation>
     </message>
     <message>
         <source>Use the marker set wrist6 or hand21.</source>
-        <translation>Usare wrist6 o hand21.</translation>
+        <translation>Usare l’insieme di marcatori wrist6 o hand21.</translation>
     </message>
     <message>
         <source>damaged: a name in it is not text</source>
-        <translation>un nome che non è un testo</translation>
+        <translation>danneggiato: contiene un nome che non è un testo</translation>
     </message>
     <message>
         <source>all six markers visible in {count} of {looked} frames</source>
-        <translation>tutti i sei marcatori in {count} fotogrammi su {looked}</translation>
+        <translation>tutti i sei marcatori visibili in {count} fotogrammi su {looked}</translation>
     </message>
     <message>
         <source>{count} bytes after the end of the recording</source>
-        <translation>{count} byte dopo la fine</translation>
+        <translation>{count} byte dopo la fine della registrazione</translation>
     </message>
     <message>
         <source>damaged: the end cannot be read</source>
-        <translation>danneggiato: non leggibile fino alla fine</translation>
+        <translation>danneggiato: la fine non è leggibile</translation>
     </message>
     <message>
         <source>damaged: Carpus could not finish reading it</source>
-        <translation>danneggiato: la lettura non termina</translation>
+        <translation>danneggiato: lettura non completata</translation>
     </message>
     <message>
         <source>the focal length is uncertain by {share} %</source>
-        <translation>la distanza focale è nota solo entro il {share} %</translation>
+        <translation>l’incertezza della distanza focale è {share} %</translation>
     </message>
     <message>
         <source>this setting does not exist (file {file})</source>
-        <translation>questa impostazione non esiste (in {file})</translation>
+        <translation>questa impostazione non esiste (file {file})</translation>
     </message>
     <message>
         <source>The labels of {markers} seem to be swapped.</source>
-        <translation>Sembrano scambiati: {markers}.</translation>
+        <translation>Le etichette sembrano scambiate: {markers}.</translation>
     </message>
     <message>
         <source>damaged: the calibration in it does not describe a hand</source>
@@ -6159,23 +6159,23 @@ cm</translation>
     </message>
     <message>
         <source>A recording ended before its first second was saved, so it cannot be recovered: {subject}.</source>
-        <translation>Una registrazione è terminata prima che il primo secondo fosse salvato: {subject}. Non c’è nulla da recuperare.</translation>
+        <translation>Una registrazione è terminata prima che fosse salvato il primo secondo e non si può recuperare: {subject}.</translation>
     </message>
     <message>
         <source>A session that was saved on this computer is now in the session folder: {subject}.</source>
-        <translation>Una seduta conservata su questo computer è ora nella cartella delle sedute: {subject}.</translation>
+        <translation>Una seduta salvata su questo computer è ora nella cartella delle sedute: {subject}.</translation>
     </message>
     <message>
         <source>All sessions are safe. Your last entries may not be saved.</source>
-        <translation>Tutte le sedute sono al sicuro. Ciò che si stava inserendo potrebbe non essere salvato.</translation>
+        <translation>Tutte le sedute sono al sicuro. Gli ultimi dati inseriti potrebbero non essere salvati.</translation>
     </message>
     <message>
         <source>Back up to another disk now, and replace the faulty disk.</source>
-        <translation>Eseguire subito una copia di sicurezza su un altro disco, e sostituire questo disco.</translation>
+        <translation>Eseguire subito una copia di sicurezza su un altro disco, e sostituire il disco difettoso.</translation>
     </message>
     <message>
         <source>Check that the reference shows the same movement, and state which column or marker is which.</source>
-        <translation>Controllare che sia lo stesso movimento, e indicare a che cosa corrisponde ogni colonna o marcatore.</translation>
+        <translation>Controllare che il riferimento mostri lo stesso movimento, e indicare a che cosa corrisponde ogni colonna o marcatore.</translation>
     </message>
     <message>
         <source>Check that the folder exists and that you are allowed to write to it, or choose another folder.</source>
@@ -6183,31 +6183,31 @@ cm</translation>
     </message>
     <message>
         <source>Check the address of the scheduler.</source>
-        <translation>Controllare l’indirizzo.</translation>
+        <translation>Controllare l’indirizzo dello scheduler.</translation>
     </message>
     <message>
         <source>Close the other window or program, then try again.</source>
-        <translation>Chiuderlo lì, poi riprovare.</translation>
+        <translation>Chiudere l’altra finestra o l’altro programma, poi riprovare.</translation>
     </message>
     <message>
         <source>Close other programs that use these files, then restart Carpus.</source>
-        <translation>Chiudere gli altri programmi che li usano, poi riavviare Carpus.</translation>
+        <translation>Chiudere gli altri programmi che usano questi file, poi riavviare Carpus.</translation>
     </message>
     <message>
         <source>Continue measuring. The gap is marked in the session.</source>
-        <translation>Continuare. La lacuna è indicata nella seduta.</translation>
+        <translation>Continuare a misurare. La lacuna è indicata nella seduta.</translation>
     </message>
     <message>
         <source>Continue measuring. When the disk or network is available again, Carpus moves the session automatically.</source>
-        <translation>Continuare. Quando il disco o la rete tornano disponibili, Carpus sposta la seduta automaticamente.</translation>
+        <translation>Continuare a misurare. Quando il disco o la rete tornano disponibili, Carpus sposta la seduta automaticamente.</translation>
     </message>
     <message>
         <source>Copy the recording again from its source, or correct its list of frames.</source>
-        <translation>Copiare di nuovo la registrazione, o correggere il suo elenco di fotogrammi.</translation>
+        <translation>Copiare di nuovo la registrazione dall’origine, o correggere il suo elenco di fotogrammi.</translation>
     </message>
     <message>
         <source>Everything saved before is safe. The data that Carpus was writing may be missing.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro. Ciò che si stava scrivendo può mancare.</translation>
+        <translation>Tutto ciò che era già salvato è al sicuro. I dati che Carpus stava scrivendo possono mancare.</translation>
     </message>
     <message>
         <source>Glue the board onto something stiff and flat, use good light, and hold the board still.</source>
@@ -6215,39 +6215,39 @@ cm</translation>
     </message>
     <message>
         <source>To use another pseudonym, edit the patient.</source>
-        <translation>Se un altro nome è migliore, cambiarlo nella scheda del paziente.</translation>
+        <translation>Per usare un altro pseudonimo, modificare il paziente.</translation>
     </message>
     <message>
         <source>If you copied the file, copy it again. Otherwise restore it from a backup.</source>
-        <translation>Se è stata copiata, copiarla di nuovo. Altrimenti ripristinarla da una copia di sicurezza.</translation>
+        <translation>Se il file è stato copiato, copiarlo di nuovo. Altrimenti ripristinarlo da una copia di sicurezza.</translation>
     </message>
     <message>
         <source>If the units are wrong, correct the list of frames or state the unit of depth.</source>
-        <translation>Se non è così, correggere l’elenco dei fotogrammi o indicare l’unità della profondità.</translation>
+        <translation>Se le unità sono errate, correggere l’elenco dei fotogrammi o indicare l’unità della profondità.</translation>
     </message>
     <message>
         <source>The session can be opened, but its values may have been altered.</source>
-        <translation>Può essere aperta, ma i suoi valori possono essere stati alterati.</translation>
+        <translation>La seduta può essere aperta, ma i suoi valori possono essere stati alterati.</translation>
     </message>
     <message>
         <source>The session is complete.</source>
-        <translation>È completa.</translation>
+        <translation>La seduta è completa.</translation>
     </message>
     <message>
         <source>{subject} does not state whether depth and colour are aligned. Carpus assumes that they are.</source>
-        <translation>Non è indicato se profondità e colore siano allineati in {subject}; Carpus presume di sì.</translation>
+        <translation>{subject} non indica se profondità e colore sono allineati. Carpus presume di sì.</translation>
     </message>
     <message>
         <source>The session is safe on this computer.</source>
-        <translation>È al sicuro su questo computer.</translation>
+        <translation>La seduta è al sicuro su questo computer.</translation>
     </message>
     <message>
         <source>The SHA-256 checksum of the file does not match.</source>
-        <translation>La somma di controllo SHA-256 non corrisponde.</translation>
+        <translation>La somma di controllo SHA-256 del file non corrisponde.</translation>
     </message>
     <message>
         <source>Measure a session, or choose the folder that contains the sessions.</source>
-        <translation>Misurarne una, o scegliere la cartella che contiene le sedute.</translation>
+        <translation>Misurare una seduta, o scegliere la cartella che contiene le sedute.</translation>
     </message>
     <message>
         <source>You do not need to do anything.</source>
@@ -6255,23 +6255,23 @@ cm</translation>
     </message>
     <message>
         <source>There is no camera calibration for {subject}, so lengths may be wrong by several per cent ({detail}).</source>
-        <translation>Con {subject} non è stata trovata una calibrazione della telecamera: le lunghezze possono scostarsi di alcuni punti percentuali ({detail}).</translation>
+        <translation>Per {subject} non c’è una calibrazione della telecamera, quindi le lunghezze possono essere errate di alcuni punti percentuali ({detail}).</translation>
     </message>
     <message>
         <source>Nothing is lost. Names, images and values stay hidden.</source>
-        <translation>Non è andato perso nulla. Tutto resta nascosto.</translation>
+        <translation>Non è andato perso nulla. Nomi, immagini e valori restano nascosti.</translation>
     </message>
     <message>
         <source>Open the record again and enter your change once more.</source>
-        <translation>Riaprirla e inserire di nuovo la modifica.</translation>
+        <translation>Riaprire la scheda e inserire di nuovo la modifica.</translation>
     </message>
     <message>
         <source>Restart Carpus to recover what can still be read. If names are missing, restore a backup.</source>
-        <translation>Riavviare Carpus: conserva ciò che è ancora leggibile. Se mancano nomi, ripristinare una copia di sicurezza.</translation>
+        <translation>Riavviare Carpus per recuperare ciò che è ancora leggibile. Se mancano nomi, ripristinare una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Restore these files from a backup.</source>
-        <translation>Ripristinarli da una copia di sicurezza.</translation>
+        <translation>Ripristinare questi file da una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Show the board in all parts of the image, tilted to all four sides, near and far. Hold it still.</source>
@@ -6279,19 +6279,19 @@ cm</translation>
     </message>
     <message>
         <source>Some images are smaller than the others and were enlarged: {subject} ({detail}).</source>
-        <translation>Alcuni fotogrammi sono più piccoli e sono stati ingranditi: {subject} ({detail}).</translation>
+        <translation>Alcune immagini sono più piccole delle altre e sono state ingrandite: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>State in the camera file whether depth and colour are aligned.</source>
-        <translation>Indicarlo nel file della telecamera.</translation>
+        <translation>Indicare nel file della telecamera se profondità e colore sono allineati.</translation>
     </message>
     <message>
         <source>The backup is incomplete: {subject} is missing or cannot be read ({detail} in total).</source>
-        <translation>La copia di sicurezza è incompleta: {subject} manca o non può essere letto; in tutto {detail}.</translation>
+        <translation>La copia di sicurezza è incompleta: {subject} manca o non può essere letto (in tutto {detail}).</translation>
     </message>
     <message>
         <source>The backup failed verification: a file in it differs from the original ({subject}, {detail}).</source>
-        <translation>La verifica della copia di sicurezza non è riuscita: un file riletto è diverso dall’originale ({subject}, {detail}).</translation>
+        <translation>La verifica della copia di sicurezza non è riuscita: un suo file è diverso dall’originale ({subject}, {detail}).</translation>
     </message>
     <message>
         <source>The clinic’s server does not respond: {subject} ({detail}).</source>
@@ -6307,7 +6307,7 @@ cm</translation>
     </message>
     <message>
         <source>The session folder contains no Carpus data: {subject}.</source>
-        <translation>La cartella delle sedute non contiene nulla di Carpus: {subject}.</translation>
+        <translation>La cartella delle sedute non contiene dati di Carpus: {subject}.</translation>
     </message>
     <message>
         <source>There is no camera type with the name {subject} ({detail}).</source>
@@ -6319,15 +6319,15 @@ cm</translation>
     </message>
     <message>
         <source>The files are no longer listed. Carpus tries to delete them again at each start.</source>
-        <translation>Non sono più in elenco. Carpus riprova a ogni avvio.</translation>
+        <translation>I file non sono più in elenco. A ogni avvio Carpus riprova a eliminarli.</translation>
     </message>
     <message>
         <source>These files were not changed. All other sessions are safe.</source>
-        <translation>Non sono stati modificati. Tutte le altre sedute sono al sicuro.</translation>
+        <translation>Questi file non sono stati modificati. Tutte le altre sedute sono al sicuro.</translation>
     </message>
     <message>
         <source>This text cannot be used as a name: {detail} ({subject}).</source>
-        <translation>Questo non può essere un nome: {detail} ({subject}).</translation>
+        <translation>Questo testo non può essere un nome: {detail} ({subject}).</translation>
     </message>
     <message>
         <source>Two patients had the pseudonym {subject}. The second one now has ({detail}) after it.</source>
@@ -6335,11 +6335,11 @@ cm</translation>
     </message>
     <message>
         <source>Restore the session from a backup.</source>
-        <translation>Usare il file di una copia di sicurezza.</translation>
+        <translation>Ripristinare la seduta da una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Wait until the other program has finished, or choose another folder.</source>
-        <translation>Attendere che abbia finito, o scegliere un’altra cartella.</translation>
+        <translation>Attendere che l’altro programma abbia finito, o scegliere un’altra cartella.</translation>
     </message>
     <message>
         <source>Wait until the recording has ended, or restart Carpus to complete the session.</source>
@@ -6347,31 +6347,31 @@ cm</translation>
     </message>
     <message>
         <source>Everything recorded is safe.</source>
-        <translation>Ciò che è stato registrato è al sicuro.</translation>
+        <translation>Tutto ciò che è stato registrato è al sicuro.</translation>
     </message>
     <message>
         <source>Without the option --scheduler, this computer tracks the recordings.</source>
-        <translation>Senza --scheduler il calcolo si svolge su questo computer.</translation>
+        <translation>Senza l’opzione --scheduler è questo computer ad analizzare le registrazioni.</translation>
     </message>
     <message>
         <source>You can use the live values of this session.</source>
-        <translation>La seduta si può usare così com’è.</translation>
+        <translation>Si possono usare i valori dal vivo di questa seduta.</translation>
     </message>
     <message>
         <source>The unit of depth is depth_unit_m in camera_info.yaml.</source>
-        <translation>In camera_info.yaml è indicata come depth_unit_m.</translation>
+        <translation>L’unità della profondità è depth_unit_m in camera_info.yaml.</translation>
     </message>
     <message>
         <source>“carpus calibrate-camera --board” writes the board as a PDF to print.</source>
-        <translation>“carpus calibrate-camera --board” la stampa.</translation>
+        <translation>“carpus calibrate-camera --board” crea la tavola da stampare, in PDF.</translation>
     </message>
     <message>
         <source>“carpus recover” also completes the session.</source>
-        <translation>La completa anche “carpus recover”.</translation>
+        <translation>Anche “carpus recover” completa la seduta.</translation>
     </message>
     <message>
         <source>not a valid TOML file: too many nested tables</source>
-        <translation>non è TOML: tabelle annidate senza fine</translation>
+        <translation>non è un file TOML valido: troppe tabelle annidate</translation>
     </message>
     <message>
         <source>on; Carpus corrects it</source>
@@ -6379,7 +6379,7 @@ cm</translation>
     </message>
     <message>
         <source>You can also track the recording again with “carpus track”.</source>
-        <translation>Oppure rianalizzare la registrazione con “carpus track”.</translation>
+        <translation>Si può anche rianalizzare la registrazione con “carpus track”.</translation>
     </message>
     <message>
         <source>Continue measuring. If the server still does not respond, ask your IT support.</source>
@@ -6387,35 +6387,35 @@ cm</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, fully in view, about 60 cm away, in good light.</source>
-        <translation>Metterlo piatto sotto la telecamera, tutto inquadrato, a circa 60 cm, con buona luce.</translation>
+        <translation>Mettere il cartoncino piatto sotto la telecamera, tutto inquadrato, a circa 60 cm, con buona luce.</translation>
     </message>
     <message>
         <source>“carpus doctor” shows which data folder is used.</source>
-        <translation>“carpus doctor” mostra qual è.</translation>
+        <translation>“carpus doctor” mostra quale cartella dei dati è in uso.</translation>
     </message>
     <message>
         <source>You can also put the file camera_info.yaml of the camera next to the recording.</source>
-        <translation>Oppure mettere il camera_info.yaml della telecamera accanto alla registrazione.</translation>
+        <translation>Si può anche mettere il file camera_info.yaml della telecamera accanto alla registrazione.</translation>
     </message>
     <message>
         <source>The MDC values were not changed.</source>
-        <translation>I valori MDC restano come sono.</translation>
+        <translation>I valori MDC non sono stati modificati.</translation>
     </message>
     <message>
         <source>The recording has unusual units, and Carpus converts them: {subject} ({detail}).</source>
-        <translation>La registrazione ha unità insolite e viene letta così: {subject} ({detail}).</translation>
+        <translation>La registrazione ha unità insolite e Carpus le converte: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>damaged: reading it needs too much memory</source>
-        <translation>danneggiato: richiede più memoria di qualsiasi seduta</translation>
+        <translation>danneggiato: la lettura richiede troppa memoria</translation>
     </message>
     <message>
         <source>Session files are safe. Do not delete the patient list: no other file has the names and notes.</source>
-        <translation>I file delle sedute sono al sicuro. Conservare questo file: nomi e note si trovano solo qui.</translation>
+        <translation>I file delle sedute sono al sicuro. Non eliminare l’elenco dei pazienti: nomi e note si trovano solo lì.</translation>
     </message>
     <message>
         <source>These sessions cannot be used as a test–retest study: {subject} ({detail}).</source>
-        <translation>Queste sedute non sono uno studio test-retest: {subject} ({detail}).</translation>
+        <translation>Queste sedute non si possono usare come studio test-retest: {subject} ({detail}).</translation>
     </message>
 </context>
 <context>
@@ -6981,7 +6981,7 @@ cm</translation>
     </message>
     <message>
         <source>A check is valid for one week. If all lengths are wrong by the same percentage, the depth or the print size is wrong.</source>
-        <translation>Un controllo vale una settimana. Se tutte le lunghezze deviano della stessa quota, è errata la profondità o la dimensione della stampa.</translation>
+        <translation>Un controllo vale una settimana. Se tutte le lunghezze si scostano della stessa percentuale, è errata la profondità o la dimensione della stampa.</translation>
     </message>
 </context>
 <context>
@@ -7041,7 +7041,7 @@ cm</translation>
     </message>
     <message>
         <source>The sessions cannot be compared, because one of them could not be read.</source>
-        <translation>Nessun confronto: una delle due sedute non è leggibile.</translation>
+        <translation>Le sedute non si possono confrontare, perché una non è leggibile.</translation>
     </message>
 </context>
 <context>
@@ -7155,15 +7155,15 @@ cm</translation>
     </message>
     <message>
         <source>Drag the label “{marker}” to its marker</source>
-        <translation>Trascinare “{marker}” sul suo marcatore</translation>
+        <translation>Trascinare l’etichetta “{marker}” sul suo marcatore</translation>
     </message>
     <message>
         <source>All later angles would be wrong. Swap the two labels?</source>
-        <translation>Gli angoli sarebbero errati da lì in poi. Scambiare le due etichette?</translation>
+        <translation>Tutti gli angoli successivi sarebbero errati. Scambiare le due etichette?</translation>
     </message>
     <message>
         <source>This spot is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
-        <translation>È a {size} mm dalla posizione compatibile con gli altri marcatori. Può essere un altro marcatore, o nessuno.</translation>
+        <translation>Questo punto è a {size} mm dalla posizione compatibile con gli altri marcatori. Può essere un altro marcatore, o nessuno.</translation>
     </message>
 </context>
 <context>
@@ -7279,7 +7279,7 @@ cm</translation>
     </message>
     <message>
         <source>Archiving removes it from all lists and results. Everything can be restored.</source>
-        <translation>Toglie tutto da elenchi e risultati. Tutto si può ripristinare.</translation>
+        <translation>L’archiviazione toglie tutto da elenchi e risultati. Tutto si può ripristinare.</translation>
     </message>
     <message>
         <source>Delete reports and exports saved elsewhere yourself ({n}): {path}.</source>
@@ -7376,7 +7376,7 @@ cm</translation>
     </message>
     <message>
         <source>The session stays in the list and can be opened, but is excluded from analysis. You can include it again.</source>
-        <translation>Resta nell’elenco e si può aprire, ma è esclusa dall’analisi. Si può includere di nuovo.</translation>
+        <translation>La seduta resta nell’elenco e si può aprire, ma è esclusa dall’analisi. Si può includere di nuovo.</translation>
     </message>
     <message>
         <source>practice run</source>
@@ -7419,11 +7419,11 @@ cm</translation>
     </message>
     <message>
         <source>Passive from here on</source>
-        <translation>Passiva, e tutte le seguenti</translation>
+        <translation>Passiva da qui in poi</translation>
     </message>
     <message>
         <source>Excluded from the results, but still shown on the curves and mentioned in the report.</source>
-        <translation>Esclusa dai risultati; resta visibile nelle curve e viene citata nella relazione.</translation>
+        <translation>Esclusa dai risultati, ma ancora visibile nelle curve e citata nella relazione.</translation>
     </message>
     <message>
         <source>practice run</source>
@@ -7510,7 +7510,7 @@ cm</translation>
     </message>
     <message>
         <source>Needed to see and correct markers later. Uses {size} MB per minute; space for {time}.</source>
-        <translation>Serve per vedere e correggere i marcatori in seguito: {size} MB al minuto, spazio per {time}.</translation>
+        <translation>Serve per vedere e correggere i marcatori in seguito. Occupa {size} MB al minuto; spazio per {time}.</translation>
     </message>
     <message>
         <source>Next</source>
@@ -7801,7 +7801,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The image shows only the hand and its angle. Face, room and name are removed. If the hand does not move in the image plane, the angle is only written, not drawn.</source>
-        <translation>La sola mano con il suo angolo. Viso e stanza sono rimossi e non c’è alcun nome. Se il movimento non è nel piano dell’immagine, l’angolo è indicato solo a parole.</translation>
+        <translation>L’immagine mostra solo la mano e il suo angolo. Viso, stanza e nome sono rimossi. Se la mano non si muove nel piano dell’immagine, l’angolo è solo scritto, non disegnato.</translation>
     </message>
 </context>
 <context>
@@ -7828,7 +7828,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Print cards…</source>
-        <translation>Stampa schede…</translation>
+        <translation>Stampa le schede…</translation>
     </message>
     <message>
         <source>&amp;Guide me through a first session</source>
@@ -8394,7 +8394,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>{name} over time</source>
-        <translation>{name} nei giorni</translation>
+        <translation>{name} nel corso dei giorni</translation>
     </message>
 </context>
 <context>
@@ -8467,15 +8467,15 @@ dall’alto</translation>
     </message>
     <message>
         <source>The labels on this image would be lost.</source>
-        <translation>Le etichette date su questa immagine andrebbero perse.</translation>
+        <translation>Le etichette su questa immagine andrebbero perse.</translation>
     </message>
     <message>
         <source>Do not change it</source>
-        <translation>Lascia così</translation>
+        <translation>Non modificare</translation>
     </message>
     <message>
         <source>Open the recording again</source>
-        <translation>Riapri</translation>
+        <translation>Riapri la registrazione</translation>
     </message>
 </context>
 <context>
@@ -8650,7 +8650,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>What happened? Enter no names.</source>
-        <translation>Che cosa è successo? Niente nomi.</translation>
+        <translation>Che cosa è successo? Non inserire nomi.</translation>
     </message>
     <message>
         <source>Active from here on</source>
@@ -8735,7 +8735,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>If pain is 5 or more, or has risen by 2, stop the exercise. Keys: 0 to 9. For 10, press 1, then 0.</source>
-        <translation>Da 5 in su, o se aumenta di 2: fermare l’esercizio. Tasti: da 0 a 9; 1 e 0 per 10.</translation>
+        <translation>Con dolore da 5 in su, o aumentato di 2, interrompere l’esercizio. Tasti: da 0 a 9. Per 10 premere 1, poi 0.</translation>
     </message>
 </context>
 <context>
@@ -8988,7 +8988,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Save in diagnosis &amp;list</source>
-        <translation>Salva nell’elen&amp;co diagnosi</translation>
+        <translation>Salva nell’elen&amp;co delle diagnosi</translation>
     </message>
     <message>
         <source>Pseudonym: {count} characters too long</source>
@@ -9193,7 +9193,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Mark as passive or excluded (X). [ and ] select another repetition.</source>
-        <translation>Passiva o esclusa (X); [ e ] selezionano un’altra</translation>
+        <translation>Segna come passiva o esclusa (X). [ e ] selezionano un’altra ripetizione.</translation>
     </message>
 </context>
 <context>
@@ -9570,7 +9570,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Records past their retention period</source>
-        <translation>Scadenze</translation>
+        <translation>Conservazione scaduta</translation>
     </message>
 </context>
 <context>
@@ -9667,7 +9667,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Past r&amp;etention period…</source>
-        <translation>Scaden&amp;ze…</translation>
+        <translation>Conservazione scadu&amp;ta…</translation>
     </message>
 </context>
 <context>
@@ -9784,11 +9784,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Placeholders for the session’s values: {places}</source>
-        <translation>Questi segnaposto prendono i valori della seduta: {places}</translation>
+        <translation>Questi segnaposto vengono sostituiti dai valori della seduta: {places}</translation>
     </message>
     <message>
         <source>Warnings, method and the legal notice are always printed.</source>
-        <translation>Avvisi, metodo e nota legale si stampano sempre.</translation>
+        <translation>Avvisi, metodo e avvertenza legale si stampano sempre.</translation>
     </message>
 </context>
 <context>
@@ -9859,11 +9859,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>{pages}, readable in black and white. Contains the patient’s real name: store it securely.</source>
-        <translation>{pages}, leggibile in grigio. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
+        <translation>{pages}, leggibile anche in bianco e nero. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
     </message>
     <message>
         <source>{pages}, readable in black and white. Contains the pseudonym, not the real name.</source>
-        <translation>{pages}, leggibile anche in grigio. Contiene lo pseudonimo, non il nome vero.</translation>
+        <translation>{pages}, leggibile anche in bianco e nero. Contiene lo pseudonimo, non il nome vero.</translation>
     </message>
 </context>
 <context>
@@ -9917,7 +9917,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>You can continue working. The old result stays until you choose the new one. “Stop” keeps the old result.</source>
-        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. Interrompi mantiene il vecchio.</translation>
+        <translation>Si può continuare a lavorare. Il vecchio risultato resta finché non si sceglie il nuovo. “Interrompi” mantiene il vecchio.</translation>
     </message>
 </context>
 <context>
@@ -10017,15 +10017,15 @@ dall’alto</translation>
     </message>
     <message>
         <source>The other results were not changed.</source>
-        <translation>Gli altri restano com’erano.</translation>
+        <translation>Gli altri risultati non sono stati modificati.</translation>
     </message>
     <message>
         <source>It was saved again as the newest result.</source>
-        <translation>È stato salvato di nuovo come il più recente.</translation>
+        <translation>È stato salvato di nuovo come risultato più recente.</translation>
     </message>
     <message>
         <source>no frame of this session was saved</source>
-        <translation>non è stato salvato alcun fotogramma</translation>
+        <translation>di questa seduta non è stato salvato alcun fotogramma</translation>
     </message>
 </context>
 <context>
@@ -10068,7 +10068,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Moves towards the camera: not drawn</source>
-        <translation>Verso la telecamera: misurato, non disegnato</translation>
+        <translation>Movimento verso la telecamera: non disegnato</translation>
     </message>
 </context>
 <context>
@@ -10183,7 +10183,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The session will move from {name}’s progress to the other patient’s.</source>
-        <translation>Passa dall’andamento di {name} a quello dell’altro paziente.</translation>
+        <translation>La seduta passa dall’andamento di {name} a quello dell’altro paziente.</translation>
     </message>
     <message>
         <source>Tick two sessions to compare</source>
@@ -10456,7 +10456,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>A second screen or window shows the patient what to do. Open it while measuring. For each exercise, choose whether it speaks to a child or an adult.</source>
-        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misura. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
+        <translation>Un secondo schermo o una finestra mostra al paziente che cosa fare. Si apre durante la misurazione. Con l’esercizio si sceglie se si rivolge a un bambino o a un adulto.</translation>
     </message>
     <message>
         <source>As published: deviation first</source>
@@ -10464,7 +10464,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>In the demo, settings apply until it is closed.</source>
-        <translation>Demo: le impostazioni valgono fino alla chiusura.</translation>
+        <translation>Nella demo le impostazioni valgono solo fino alla chiusura.</translation>
     </message>
     <message>
         <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
@@ -10510,7 +10510,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>A bent finger is measured from its own resting position, which is less accurate.</source>
-        <translation>Un dito piegato si misura dalla sua posizione di riposo, con meno sicurezza.</translation>
+        <translation>Un dito piegato si misura dalla sua posizione di riposo, con minore precisione.</translation>
     </message>
 </context>
 <context>
@@ -10582,7 +10582,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Available after the recording</source>
-        <translation>Dopo la registrazione</translation>
+        <translation>Disponibile dopo la registrazione</translation>
     </message>
 </context>
 <context>
@@ -10693,7 +10693,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>This is a simulated hand, not {name}. It is excluded from analysis.</source>
-        <translation>Mano simulata: non è di {name}, esclusa dall’analisi.</translation>
+        <translation>Questa è una mano simulata, non di {name}. È esclusa dall’analisi.</translation>
     </message>
     <message>
         <source>{words}, {lost} frames dropped</source>
@@ -10778,11 +10778,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>In the display settings, choose a higher resolution or a smaller scale: {width} × {height} or more.</source>
-        <translation>Scegliere più pixel, o una scala minore, nelle impostazioni dello schermo: {width} × {height} o più.</translation>
+        <translation>Nelle impostazioni dello schermo scegliere una risoluzione maggiore o una scala minore: {width} × {height} o più.</translation>
     </message>
     <message>
         <source>the fonts of Carpus cannot be loaded</source>
-        <translation>i caratteri di Carpus non si possono usare</translation>
+        <translation>i caratteri di Carpus non si possono caricare</translation>
     </message>
 </context>
 <context>
@@ -10890,7 +10890,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Measure without the patient list</source>
-        <translation>Misura senza l’elenco</translation>
+        <translation>Misura senza l’elenco dei pazienti</translation>
     </message>
 </context>
 </TS>
