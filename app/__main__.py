@@ -55,7 +55,10 @@ def build_parser(asked: Sequence[str]) -> CommandParser:
     )
     out.add_argument("--version", action="version", version=f"carpus {__version__}")
     out.add_argument(
-        "--gdt", metavar="FILE", type=Path, help="open the window with the patient of a practice system's GDT file"
+        "--gdt",
+        metavar="FILE",
+        type=Path,
+        help="open the window with the patient of a GDT file from the clinic software",
     )
     subparsers = out.add_subparsers(dest="command", metavar="COMMAND")
     for name, words in COMMANDS.items():

@@ -88,8 +88,8 @@ class TopBarController(QObject):
         if self._store.is_server_away:
             lines.append(
                 self.tr(
-                    "The clinic’s server does not answer. Until it does, patients and sessions cannot be "
-                    "shown or changed. You can still measure."
+                    "The clinic’s server does not respond. Until it does, patients and sessions cannot be shown or "
+                    "changed. You can still measure."
                 )
             )
         if simulated and now.patient is not None and not now.is_practice:

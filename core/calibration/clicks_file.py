@@ -30,7 +30,9 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
     content = _read_json_object(path)
     side: Any = content.get("hand")
     if side not in ("right", "left"):
-        raise ClicksUnreadable(path, phrase("hand is {json}, right or left expected", json=json.dumps(side)[:40]))
+        raise ClicksUnreadable(
+            path, phrase("hand is {json}, but right or left is expected", json=json.dumps(side)[:40])
+        )
     name = str(content.get("protocol", ""))[:40]
     try:
         protocol = get_protocol(name)
@@ -46,7 +48,9 @@ def read_clicks(path: Path, width_px: int | None = None, height_px: int | None =
     straight = content.get("straight_fingers")
     is_list = isinstance(straight, list) and len(straight) == len(ALL_STRAIGHT)
     if straight is not None and not (is_list and all(isinstance(each, bool) for each in straight)):
-        raise ClicksUnreadable(path, phrase("straight_fingers is not five times true or false, thumb to little"))
+        raise ClicksUnreadable(
+            path, phrase("straight_fingers must be five values, true or false, from thumb to little finger")
+        )
     exercise, known = str(content.get("exercise", ""))[:40], [one.id for one in EXERCISES]
     if exercise and exercise not in known:
         raise ClicksUnreadable(path, f"exercise {exercise}; {describe_known_names(exercise, known)}")
@@ -119,4 +123,6 @@ def _parse_pixel(path: Path, name: str, value: Any) -> tuple[float, float]:
     if isinstance(value, list) and len(value) == 2 and all(map(is_number, value)):
         return float(value[0]), float(value[1])
     found = json.dumps(value)[:40]
-    raise ClicksUnreadable(path, phrase("{name} is {json}, two pixels expected", name=name, json=found))
+    raise ClicksUnreadable(
+        path, phrase("{name} is {json}, but two pixel coordinates are expected", name=name, json=found)
+    )

@@ -156,7 +156,7 @@ def check_window() -> Finding:
             remedy = phrase("Run: installer/setup.sh run. Or: install the packages that contain these libraries.")
         return Finding(name, "warning", f"Qt {qt}; missing: {missing}", remedy)
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM")):
-        remedy = phrase("Start the window from a desktop. The commands for files work without a screen.")
+        remedy = phrase("Start Carpus from a desktop session. The commands for files work without a screen.")
         return Finding(name, "warning", phrase("Qt {qt}; no screen", qt=qt), remedy)
     return Finding(name, "good", f"Qt {qt}")
 
@@ -175,7 +175,7 @@ def check_data_folder(folder: Path) -> Finding:
     """Check that recordings can be stored, and that no other user can read them."""
     name, there = phrase("Data folder"), _existing_ancestor(folder)
     if not os.access(there, os.W_OK | os.X_OK) or not there.is_dir():
-        found = phrase("{folder}: {there} cannot be written to", folder=folder, there=there)
+        found = phrase("{folder}: cannot write to {there}", folder=folder, there=there)
         return Finding(name, "bad", found, phrase("Allow writing there, or choose another folder in the settings."))
     if not folder.exists():
         return Finding(name, "good", phrase("{folder}, created at the first recording", folder=folder))

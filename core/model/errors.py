@@ -169,9 +169,9 @@ class OutputExists(CarpusFault, code="C-401"):
 
 
 class GdtUnreadable(CarpusFault, code="C-413"):
-    summary = phrase("The practice system’s file cannot be read: {subject} ({detail}).")
+    summary = phrase("The file from the clinic software cannot be read: {subject} ({detail}).")
     data_safety = _FILE_UNCHANGED
-    remedy = phrase("Send the patient again from the practice system, or choose the patient in Carpus.")
+    remedy = phrase("Send the patient again from the clinic software, or choose the patient in Carpus.")
 
 
 class ExtraMissing(CarpusFault, code="C-001"):

@@ -1608,14 +1608,6 @@
         <translation>Reichbewegung {time}</translation>
     </message>
     <message>
-        <source>Contact occluded</source>
-        <translation>Kontakt verdeckt</translation>
-    </message>
-    <message>
-        <source>Touched {met} of {all}</source>
-        <translation>{met} von {all} berührt</translation>
-    </message>
-    <message>
         <source>Reach and grasp</source>
         <translation>Reichen und Greifen</translation>
     </message>
@@ -1638,10 +1630,6 @@
     <message>
         <source>Range of motion of the fingers</source>
         <translation>Bewegungsausmaß der Finger</translation>
-    </message>
-    <message>
-        <source>total arcs over the same period</source>
-        <translation>Gesamtausmaße im selben Zeitraum</translation>
     </message>
     <message>
         <source>not visible</source>
@@ -1892,14 +1880,6 @@
         <translation>Sitzung</translation>
     </message>
     <message>
-        <source>Length</source>
-        <translation>Dauer</translation>
-    </message>
-    <message>
-        <source>{weeks} before</source>
-        <translation>{weeks} zuvor</translation>
-    </message>
-    <message>
         <source>Range of motion</source>
         <translation>Bewegungsausmaß</translation>
     </message>
@@ -2042,10 +2022,6 @@
     <message>
         <source>{seconds} s occluded and not analysed</source>
         <translation>{seconds} s verdeckt und nicht ausgewertet</translation>
-    </message>
-    <message>
-        <source>Up and down</source>
-        <translation>Auf und ab</translation>
     </message>
     <message>
         <source>{angle} at most</source>
@@ -2560,10 +2536,6 @@
         <translation>{size} weniger</translation>
     </message>
     <message>
-        <source>{difference} since the first</source>
-        <translation>{difference} als bei der ersten</translation>
-    </message>
-    <message>
         <source>{difference}, within MDC ({limit})</source>
         <translation>{difference}, innerhalb der MDC ({limit})</translation>
     </message>
@@ -2790,10 +2762,6 @@
     <message>
         <source>Run: sudo apt-get install libopenni2-0</source>
         <translation>Ausführen: sudo apt-get install libopenni2-0</translation>
-    </message>
-    <message>
-        <source>Start the window from a desktop. The commands for files work without a screen.</source>
-        <translation>Starten Sie das Fenster auf einem Desktop. Die Befehle für Dateien funktionieren ohne Bildschirm.</translation>
     </message>
     <message>
         <source>Swap the two labels, or click both markers again.</source>
@@ -3108,10 +3076,6 @@
         <translation>Hand</translation>
     </message>
     <message>
-        <source>hand is {json}, right or left expected</source>
-        <translation>hand ist {json}, erwartet ist right oder left</translation>
-    </message>
-    <message>
         <source>hand {hand}</source>
         <translation>Hand {hand}</translation>
     </message>
@@ -3172,10 +3136,6 @@
         <translation>Spalten passen nicht zu ihren Namen</translation>
     </message>
     <message>
-        <source>its side with one marker here</source>
-        <translation>Keilseite mit einem Marker hier</translation>
-    </message>
-    <message>
         <source>times out of order</source>
         <translation>Zeiten nicht aufsteigend</translation>
     </message>
@@ -3196,16 +3156,8 @@
         <translation>größer als 2 GB</translation>
     </message>
     <message>
-        <source>less than {least_overlap_s} s of overlap, or no movement</source>
-        <translation>weniger als {least_overlap_s} s Überschneidung, oder keine Bewegung</translation>
-    </message>
-    <message>
         <source>line {number} is not a time and a file name: {content}</source>
         <translation>Zeile {number} enthält nicht Zeit und Dateiname: {content}</translation>
-    </message>
-    <message>
-        <source>line {number} leads out of the folder: {content}</source>
-        <translation>Zeile {number} führt aus dem Ordner hinaus: {content}</translation>
     </message>
     <message>
         <source>line {number}: {time_s} s after {earlier} s</source>
@@ -3448,14 +3400,6 @@
         <translation>wird noch aufgenommen</translation>
     </message>
     <message>
-        <source>straight_fingers is not five times true or false, thumb to little</source>
-        <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
-    </message>
-    <message>
-        <source>the curves match by {match} at best. Check that it is the same movement</source>
-        <translation>die Kurven stimmen höchstens zu {match} überein. Prüfen Sie, ob es dieselbe Bewegung ist</translation>
-    </message>
-    <message>
         <source>the curves are opposite, or the time shift is more than {most} s</source>
         <translation>die Kurven sind gegenläufig, oder der Zeitversatz ist größer als {most} s</translation>
     </message>
@@ -3470,14 +3414,6 @@
     <message>
         <source>the session contains no frames</source>
         <translation>die Sitzung enthält kein Bild</translation>
-    </message>
-    <message>
-        <source>the two do not overlap in time</source>
-        <translation>die beiden überschneiden sich zeitlich nicht</translation>
-    </message>
-    <message>
-        <source>the wedge’s side with two markers here</source>
-        <translation>Keilseite mit zwei Markern hier</translation>
     </message>
     <message>
         <source>file not found</source>
@@ -3506,10 +3442,6 @@
     <message>
         <source>{firmware}, the library asks for {wanted}</source>
         <translation>{firmware}, die Bibliothek verlangt {wanted}</translation>
-    </message>
-    <message>
-        <source>{folder}: {there} cannot be written to</source>
-        <translation>{folder}: in {there} lässt sich nicht schreiben</translation>
     </message>
     <message>
         <source>{found}, cannot be loaded: {trouble}</source>
@@ -3630,10 +3562,6 @@
     <message>
         <source>{name} changes within the file</source>
         <translation>{name} ändert sich innerhalb der Datei</translation>
-    </message>
-    <message>
-        <source>{name} is {json}, two pixels expected</source>
-        <translation>{name} ist {json}, erwartet sind zwei Pixel</translation>
     </message>
     <message>
         <source>{np} frames missing</source>
@@ -4044,14 +3972,6 @@
         <translation>Der Computer ist ausgelastet</translation>
     </message>
     <message>
-        <source>Catching up…</source>
-        <translation>Wird aufgeholt …</translation>
-    </message>
-    <message>
-        <source>Catching up: {seconds} s left</source>
-        <translation>Wird aufgeholt: noch {seconds} s</translation>
-    </message>
-    <message>
         <source>{time} of {whole}</source>
         <translation>{time} von {whole}</translation>
     </message>
@@ -4130,10 +4050,6 @@
     <message>
         <source>the reference contains both hands: {names} are used</source>
         <translation>In der Referenz sind beide Hände; verwendet werden {names}</translation>
-    </message>
-    <message>
-        <source>the markers of the two are {apart} mm apart, up to {most} mm is expected: other markers, another hand, or jumps</source>
-        <translation>die Marker der beiden liegen {apart} mm auseinander, zu erwarten sind bis zu {most} mm: andere Marker, eine andere Hand oder Sprünge</translation>
     </message>
     <message>
         <source>no marker {wanted}, only {names}</source>
@@ -4912,10 +4828,6 @@
         <translation>Datei fehlt</translation>
     </message>
     <message>
-        <source>not readable</source>
-        <translation>nicht lesbar</translation>
-    </message>
-    <message>
         <source>This image cannot be read. Choose a PNG or JPEG file.</source>
         <translation>Dieses Bild kann nicht gelesen werden. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
     </message>
@@ -4930,14 +4842,6 @@
     <message>
         <source>This image is too small to print. Choose one of at least 32 × 32 pixels.</source>
         <translation>Dieses Bild ist zu klein zum Drucken. Wählen Sie eines mit mindestens 32 × 32 Pixeln.</translation>
-    </message>
-    <message>
-        <source>Send the patient again from the practice system, or choose the patient in Carpus.</source>
-        <translation>Übergeben Sie den Patienten erneut aus der Praxissoftware, oder wählen Sie ihn in Carpus.</translation>
-    </message>
-    <message>
-        <source>The practice system’s file cannot be read: {subject} ({detail}).</source>
-        <translation>Die Datei der Praxissoftware kann nicht gelesen werden: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Rotation</source>
@@ -5492,10 +5396,6 @@
         <translation>Diagnose oder Operation</translation>
     </message>
     <message>
-        <source>Since</source>
-        <translation>Seit</translation>
-    </message>
-    <message>
         <source>Last session</source>
         <translation>Letzte Sitzung</translation>
     </message>
@@ -5508,16 +5408,8 @@
         <translation>Am Ende des Faustschlusses sind die PIP- und DIP-Gelenke verdeckt. Ihre Bewegungsausmaße sind Mindestwerte (≥).</translation>
     </message>
     <message>
-        <source>Behind the cup the thumb may be occluded. The results say for how long.</source>
-        <translation>Hinter dem Becher kann der Daumen verdeckt sein. Die Ergebnisse zeigen, wie lange.</translation>
-    </message>
-    <message>
         <source>Below about 25° of pronation the markers are occluded. Only the visible part is measured.</source>
         <translation>Unter etwa 25° Pronation sind die Marker verdeckt. Nur der sichtbare Teil wird gemessen.</translation>
-    </message>
-    <message>
-        <source>Movement of the forearm appears in the angle.</source>
-        <translation>Bewegungen des Unterarms verändern den Winkel.</translation>
     </message>
     <message>
         <source>Occluded joints are not measured.</source>
@@ -5538,10 +5430,6 @@
     <message>
         <source>Value</source>
         <translation>Wert</translation>
-    </message>
-    <message>
-        <source>Remark</source>
-        <translation>Anmerkung</translation>
     </message>
     <message>
         <source>Analysed</source>
@@ -5590,10 +5478,6 @@
     <message>
         <source>distal palmar crease</source>
         <translation>distale Hohlhandfalte</translation>
-    </message>
-    <message>
-        <source>complete list on the next page</source>
-        <translation>vollständige Liste auf der nächsten Seite</translation>
     </message>
     <message>
         <source>The therapist’s comment is on the last {count} pages.</source>
@@ -5860,14 +5744,6 @@
         <translation>Maximalgeschwindigkeit, Mittel ± SD</translation>
     </message>
     <message>
-        <source>Suggested from the last session:</source>
-        <translation>Vorschlag aus der letzten Sitzung:</translation>
-    </message>
-    <message>
-        <source>Suggested from the last {count} sessions:</source>
-        <translation>Vorschlag aus den letzten {count} Sitzungen:</translation>
-    </message>
-    <message>
         <source>Camera within tolerance: errors up to {angle}° and {length} mm (limits: {most_angle}° and {most_length} mm).</source>
         <translation>Kamera innerhalb der Toleranz: höchstens {angle}° und {length} mm Abweichung (Grenzen: {most_angle}° und {most_length} mm).</translation>
     </message>
@@ -6044,10 +5920,6 @@ cm</translation>
     <message>
         <source>men</source>
         <translation>Männer</translation>
-    </message>
-    <message>
-        <source>to 54 years</source>
-        <translation>bis 54 Jahre</translation>
     </message>
     <message>
         <source>In the middle of the back of the wrist, in the small hollow.</source>
@@ -6417,6 +6289,126 @@ cm</translation>
         <source>These sessions cannot be used as a test–retest study: {subject} ({detail}).</source>
         <translation>Diese Sitzungen lassen sich nicht als Test-Retest-Studie verwenden: {subject} ({detail}).</translation>
     </message>
+    <message>
+        <source>Thumb contact occluded</source>
+        <translation>Kontakt verdeckt</translation>
+    </message>
+    <message>
+        <source>Touched {met} of {all} fingertips</source>
+        <translation>{met} von {all} berührt</translation>
+    </message>
+    <message>
+        <source>total arcs in the same period</source>
+        <translation>Gesamtausmaße im selben Zeitraum</translation>
+    </message>
+    <message>
+        <source>Duration</source>
+        <translation>Dauer</translation>
+    </message>
+    <message>
+        <source>{weeks} before this session</source>
+        <translation>{weeks} zuvor</translation>
+    </message>
+    <message>
+        <source>{difference} since first session</source>
+        <translation>{difference} als bei der ersten</translation>
+    </message>
+    <message>
+        <source>Start Carpus from a desktop session. The commands for files work without a screen.</source>
+        <translation>Starten Sie das Fenster auf einem Desktop. Die Befehle für Dateien funktionieren ohne Bildschirm.</translation>
+    </message>
+    <message>
+        <source>hand is {json}, but right or left is expected</source>
+        <translation>hand ist {json}, erwartet ist right oder left</translation>
+    </message>
+    <message>
+        <source>side of the wedge with one marker</source>
+        <translation>Keilseite mit einem Marker hier</translation>
+    </message>
+    <message>
+        <source>session and reference overlap by less than {least_overlap_s} s, or nothing moves</source>
+        <translation>weniger als {least_overlap_s} s Überschneidung, oder keine Bewegung</translation>
+    </message>
+    <message>
+        <source>line {number} names a file outside the folder: {content}</source>
+        <translation>Zeile {number} führt aus dem Ordner hinaus: {content}</translation>
+    </message>
+    <message>
+        <source>straight_fingers must be five values, true or false, from thumb to little finger</source>
+        <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
+    </message>
+    <message>
+        <source>the best match of the curves is only {match}. Check that they show the same movement</source>
+        <translation>die Kurven stimmen höchstens zu {match} überein. Prüfen Sie, ob es dieselbe Bewegung ist</translation>
+    </message>
+    <message>
+        <source>session and reference do not overlap in time</source>
+        <translation>die beiden überschneiden sich zeitlich nicht</translation>
+    </message>
+    <message>
+        <source>side of the wedge with two markers</source>
+        <translation>Keilseite mit zwei Markern hier</translation>
+    </message>
+    <message>
+        <source>{folder}: cannot write to {there}</source>
+        <translation>{folder}: in {there} lässt sich nicht schreiben</translation>
+    </message>
+    <message>
+        <source>{name} is {json}, but two pixel coordinates are expected</source>
+        <translation>{name} ist {json}, erwartet sind zwei Pixel</translation>
+    </message>
+    <message>
+        <source>Analysing…</source>
+        <translation>Wird ausgewertet …</translation>
+    </message>
+    <message>
+        <source>Analysing: {seconds} s left</source>
+        <translation>Auswertung: noch {seconds} s</translation>
+    </message>
+    <message>
+        <source>the markers of session and reference are {apart} mm apart (expected: up to {most} mm). They may be other markers or another hand, or the markers may jump</source>
+        <translation>die Marker der beiden liegen {apart} mm auseinander, zu erwarten sind bis zu {most} mm: andere Marker, eine andere Hand oder Sprünge</translation>
+    </message>
+    <message>
+        <source>Send the patient again from the clinic software, or choose the patient in Carpus.</source>
+        <translation>Übergeben Sie den Patienten erneut aus der Praxissoftware, oder wählen Sie ihn in Carpus.</translation>
+    </message>
+    <message>
+        <source>The file from the clinic software cannot be read: {subject} ({detail}).</source>
+        <translation>Die Datei der Praxissoftware kann nicht gelesen werden: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Time since</source>
+        <translation>Seit</translation>
+    </message>
+    <message>
+        <source>The cup may occlude the thumb. The results show for how long.</source>
+        <translation>Hinter dem Becher kann der Daumen verdeckt sein. Die Ergebnisse zeigen, wie lange.</translation>
+    </message>
+    <message>
+        <source>Any movement of the forearm is included in the angle.</source>
+        <translation>Bewegungen des Unterarms verändern den Winkel.</translation>
+    </message>
+    <message>
+        <source>Status</source>
+        <translation>Status</translation>
+    </message>
+    <message>
+        <source>see the next page for the complete list</source>
+        <translation>vollständige Liste auf der nächsten Seite</translation>
+    </message>
+    <message>
+        <source>Proposed from the last session:</source>
+        <translation>Vorschlag aus der letzten Sitzung:</translation>
+    </message>
+    <message>
+        <source>Proposed from the last {count} sessions:</source>
+        <translation>Vorschlag aus den letzten {count} Sitzungen:</translation>
+    </message>
+    <message>
+        <source>up to 54 years</source>
+        <translation>bis 54 Jahre</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -6464,16 +6456,8 @@ cm</translation>
         <translation>Nur manuell</translation>
     </message>
     <message>
-        <source>the last 14, plus one per month for 2 years</source>
-        <translation>die letzten 14, dazu 2 Jahre lang eine pro Monat</translation>
-    </message>
-    <message>
         <source>Backup folder</source>
         <translation>Ordner</translation>
-    </message>
-    <message>
-        <source>Automatic</source>
-        <translation>Täglich</translation>
     </message>
     <message>
         <source>Keep</source>
@@ -6502,6 +6486,14 @@ cm</translation>
     <message>
         <source>The changes are shown first.</source>
         <translation>Die Änderungen werden zuerst gezeigt.</translation>
+    </message>
+    <message>
+        <source>the last 14 backups, plus one per month for 2 years</source>
+        <translation>die letzten 14, dazu 2 Jahre lang eine pro Monat</translation>
+    </message>
+    <message>
+        <source>Automatic backup</source>
+        <translation>Automatische Sicherung</translation>
     </message>
 </context>
 <context>
@@ -6660,20 +6652,12 @@ cm</translation>
         <translation>Starten</translation>
     </message>
     <message>
-        <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again after a knock or when the check card asks for it.</source>
-        <translation>Die Kalibrierung dauert fünf Minuten. Sie vermisst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut nach einem Stoß oder wenn die Prüfkarte es verlangt.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera</source>
         <translation>Kamera kalibrieren</translation>
     </message>
     <message>
         <source>1  Print the board</source>
         <translation>1  Tafel drucken</translation>
-    </message>
-    <message>
-        <source>Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a thick board. Then measure the printed ruler.</source>
-        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier. Kleben Sie es flach auf etwas Steifes, etwa Glas oder eine dicke Platte. Messen Sie dann das gedruckte Lineal.</translation>
     </message>
     <message>
         <source>Use even light without reflections. The screen shows where to hold the board. Images are taken automatically when it is still, sharp and in a new position. No image is saved, and nothing changes until you confirm.</source>
@@ -6694,6 +6678,14 @@ cm</translation>
     <message>
         <source>2  Show it to the camera</source>
         <translation>2  Der Kamera zeigen</translation>
+    </message>
+    <message>
+        <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again if the camera was knocked or is out of tolerance.</source>
+        <translation>Die Kalibrierung dauert fünf Minuten. Sie vermisst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut nach einem Stoß oder wenn die Prüfkarte es verlangt.</translation>
+    </message>
+    <message>
+        <source>Print at 100 % (“actual size”) on plain paper. Glue the print flat onto something stiff, such as glass or thick cardboard. Then measure the printed ruler.</source>
+        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier. Kleben Sie es flach auf etwas Steifes, etwa Glas oder eine dicke Platte. Messen Sie dann das gedruckte Lineal.</translation>
     </message>
 </context>
 <context>
@@ -6745,10 +6737,6 @@ cm</translation>
         <translation>Kamera</translation>
     </message>
     <message>
-        <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within tolerance.</source>
-        <translation>Mit einer gedruckten Tafel wird die Kamera kalibriert. Eine gedruckte Karte prüft in 30 Sekunden, ob sie noch innerhalb der Toleranz misst.</translation>
-    </message>
-    <message>
         <source>Chec&amp;k card…</source>
         <translation>Prüf&amp;karte…</translation>
     </message>
@@ -6759,6 +6747,10 @@ cm</translation>
     <message>
         <source>In the demo the camera is simulated. It needs no calibration.</source>
         <translation>In der Demo ist die Kamera simuliert. Sie braucht keine Kalibrierung.</translation>
+    </message>
+    <message>
+        <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether the camera is still within tolerance.</source>
+        <translation>Mit einer gedruckten Tafel wird die Kamera kalibriert. Eine gedruckte Karte prüft in 30 Sekunden, ob sie noch innerhalb der Toleranz misst.</translation>
     </message>
 </context>
 <context>
@@ -6824,10 +6816,6 @@ cm</translation>
     <message>
         <source>Simulated camera</source>
         <translation>Simulierte Kamera</translation>
-    </message>
-    <message>
-        <source>A simulated hand does the exercise, to try things out. It is marked as simulated.</source>
-        <translation>Zum Ausprobieren führt eine simulierte Hand die Übung aus. Sie ist als simuliert gekennzeichnet.</translation>
     </message>
     <message>
         <source>Choose a &amp;file…</source>
@@ -6908,6 +6896,10 @@ cm</translation>
     <message>
         <source>Choose an image folder</source>
         <translation>Bilderordner wählen</translation>
+    </message>
+    <message>
+        <source>A simulated hand does the exercise, so that you can try Carpus. The session is marked as simulated.</source>
+        <translation>Zum Ausprobieren führt eine simulierte Hand die Übung aus. Sie ist als simuliert gekennzeichnet.</translation>
     </message>
 </context>
 <context>
@@ -8025,10 +8017,6 @@ von oben</translation>
         <translation>Patientenansicht</translation>
     </message>
     <message>
-        <source>Catching up</source>
-        <translation>Rückstand wird aufgeholt</translation>
-    </message>
-    <message>
         <source>The recording plays from its first frame</source>
         <translation>Die Aufnahme läuft ab dem ersten Bild</translation>
     </message>
@@ -8076,6 +8064,10 @@ von oben</translation>
         <source>Preparing the simulated hand</source>
         <translation>Simulierte Hand wird vorbereitet</translation>
     </message>
+    <message>
+        <source>Progress of the analysis</source>
+        <translation>Fortschritt der Auswertung</translation>
+    </message>
 </context>
 <context>
     <name>LockCard</name>
@@ -8108,10 +8100,6 @@ von oben</translation>
         <translation>PIN</translation>
     </message>
     <message>
-        <source>locks now</source>
-        <translation>sperrt sofort</translation>
-    </message>
-    <message>
         <source>Change PIN…</source>
         <translation>PIN ändern…</translation>
     </message>
@@ -8122,6 +8110,10 @@ von oben</translation>
     <message>
         <source>After 30 min</source>
         <translation>Nach 30 min</translation>
+    </message>
+    <message>
+        <source>lock now</source>
+        <translation>sperrt sofort</translation>
     </message>
 </context>
 <context>
@@ -8252,7 +8244,7 @@ von oben</translation>
         <translation>zuletzt</translation>
     </message>
     <message>
-        <source>Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day ({sign} = minimum), not saved here; type over it to enter a goniometer value.</source>
+        <source>Extension: − is a deficit, + is hyperextension. Values in italics were measured by Carpus on this day ({sign} = minimum) and are not saved here. Type over them to enter goniometer values.</source>
         <translation>Extension: − Streckdefizit, + Überstreckung. Getönt und kursiv: von Carpus an diesem Tag gemessen ({sign} = Mindestwert), wird hier nicht gespeichert; für einen Goniometerwert überschreiben. FKHA: Fingerkuppen-Hohlhand-Abstand.</translation>
     </message>
 </context>
@@ -8338,10 +8330,6 @@ von oben</translation>
         <translation>Manuelle Messungen, {day}</translation>
     </message>
     <message>
-        <source>Proposed, recording of {day}: at least {score}</source>
-        <translation>Vorschlag aus der Aufnahme vom {day}: mindestens {score}</translation>
-    </message>
-    <message>
         <source>Manual and Carpus values are kept separate</source>
         <translation>Manuelle Werte und Carpus-Werte bleiben getrennt</translation>
     </message>
@@ -8354,7 +8342,11 @@ von oben</translation>
         <translation>Eingetragen von {initials}.</translation>
     </message>
     <message>
-        <source>Grip of this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
+        <source>Proposed from the recording of {day}: at least {score}</source>
+        <translation>Vorschlag, Aufnahme vom {day}: mindestens {score}</translation>
+    </message>
+    <message>
+        <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
         <translation>Griffkraft nach Alter und Geschlecht: {mean} ± {sd} kg ({source}, Smedley-Dynamometer).</translation>
     </message>
 </context>
@@ -8568,16 +8560,16 @@ von oben</translation>
         <translation>{name}: Antworten als Zahlen</translation>
     </message>
     <message>
-        <source>Answers of the paper form in order, - for none. Only the score is saved.</source>
-        <translation>Antworten des Papierbogens der Reihe nach, „-“ für keine Antwort. Gespeichert wird nur die Punktzahl.</translation>
-    </message>
-    <message>
-        <source>not an answer</source>
-        <translation>keine gültige Antwort</translation>
-    </message>
-    <message>
         <source>{count} of {all}</source>
         <translation>{count} von {all}</translation>
+    </message>
+    <message>
+        <source>Enter the answers of the paper form in order, with - for no answer. Only the score is saved.</source>
+        <translation>Antworten des Papierbogens der Reihe nach, - für keine. Nur die Punktzahl wird gespeichert.</translation>
+    </message>
+    <message>
+        <source>not a valid answer</source>
+        <translation>keine Antwort</translation>
     </message>
 </context>
 <context>
@@ -9230,28 +9222,12 @@ von oben</translation>
 <context>
     <name>PracticeSystemCard</name>
     <message>
-        <source>The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to practice system” next to a report writes its values and the PDF into the second. These files contain real names.</source>
-        <translation>Die Praxissoftware legt die Daten eines Patienten als GDT-2.1-Datei im ersten Ordner ab, und Carpus öffnet den Patienten. „An Praxissoftware senden“ neben einem Bericht legt Werte und PDF im zweiten ab. Diese Dateien enthalten echte Namen.</translation>
-    </message>
-    <message>
         <source>Change…</source>
         <translation>Ändern…</translation>
     </message>
     <message>
         <source>Test the folders</source>
         <translation>Ordner prüfen</translation>
-    </message>
-    <message>
-        <source>Practice system (GDT)</source>
-        <translation>Praxissoftware (GDT)</translation>
-    </message>
-    <message>
-        <source>Patients from the practice system</source>
-        <translation>Patienten aus der Praxissoftware</translation>
-    </message>
-    <message>
-        <source>Results for the practice system</source>
-        <translation>Ergebnisse für die Praxissoftware</translation>
     </message>
     <message>
         <source>Choose a folder</source>
@@ -9264,6 +9240,22 @@ von oben</translation>
     <message>
         <source>Turn off</source>
         <translation>Ausschalten</translation>
+    </message>
+    <message>
+        <source>The clinic software writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to clinic software” next to a report writes its values and the PDF into the second folder. These files contain real names.</source>
+        <translation>Die Praxissoftware legt die Daten eines Patienten als GDT-2.1-Datei im ersten Ordner ab, und Carpus öffnet den Patienten. „An Praxissoftware senden“ neben einem Bericht legt Werte und PDF im zweiten ab. Diese Dateien enthalten echte Namen.</translation>
+    </message>
+    <message>
+        <source>Clinic software (GDT)</source>
+        <translation>Praxissoftware (GDT)</translation>
+    </message>
+    <message>
+        <source>Patients from the clinic software</source>
+        <translation>Patienten aus der Praxissoftware</translation>
+    </message>
+    <message>
+        <source>Results for the clinic software</source>
+        <translation>Ergebnisse für die Praxissoftware</translation>
     </message>
 </context>
 <context>
@@ -9453,10 +9445,6 @@ von oben</translation>
         <translation>de-identifiziert</translation>
     </message>
     <message>
-        <source>finished later</source>
-        <translation>später beendet</translation>
-    </message>
-    <message>
         <source>with a PIN</source>
         <translation>mit PIN</translation>
     </message>
@@ -9571,6 +9559,10 @@ von oben</translation>
     <message>
         <source>Records past their retention period</source>
         <translation>Abgelaufene Aufbewahrung</translation>
+    </message>
+    <message>
+        <source>completed later</source>
+        <translation>später beendet</translation>
     </message>
 </context>
 <context>
@@ -9854,16 +9846,16 @@ von oben</translation>
         <translation>Gespeichert</translation>
     </message>
     <message>
-        <source>Send to practice system</source>
-        <translation>An Praxissoftware senden</translation>
-    </message>
-    <message>
         <source>{pages}, readable in black and white. Contains the patient’s real name: store it securely.</source>
         <translation>{pages}, auch in Schwarz-Weiß lesbar. Enthält den echten Namen des Patienten: sicher aufbewahren.</translation>
     </message>
     <message>
         <source>{pages}, readable in black and white. Contains the pseudonym, not the real name.</source>
         <translation>{pages}, auch in Schwarz-Weiß lesbar. Enthält das Pseudonym, nicht den echten Namen.</translation>
+    </message>
+    <message>
+        <source>Send to clinic software</source>
+        <translation>An Praxissoftware senden</translation>
     </message>
 </context>
 <context>
@@ -10225,10 +10217,6 @@ von oben</translation>
         <translation>Schließen</translation>
     </message>
     <message>
-        <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
-        <translation>Übungen, die mit denselben Markern nacheinander ausgeführt werden. Jede wird zu einer eigenen Sitzung.</translation>
-    </message>
-    <message>
         <source>Exercise</source>
         <translation>Übung</translation>
     </message>
@@ -10267,6 +10255,10 @@ von oben</translation>
     <message>
         <source>Exercise sets</source>
         <translation>Übungsfolgen</translation>
+    </message>
+    <message>
+        <source>Exercises that run one after the other with the same markers. Each is saved as its own session.</source>
+        <translation>Übungen, die mit denselben Markern nacheinander ausgeführt werden. Jede wird zu einer eigenen Sitzung.</translation>
     </message>
 </context>
 <context>
@@ -10680,10 +10672,6 @@ von oben</translation>
         <translation>Alt und neu übereinander</translation>
     </message>
     <message>
-        <source>The clinic’s server does not answer. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
-        <translation>Der Server der Einrichtung antwortet nicht. Bis dahin lassen sich Patienten und Sitzungen weder zeigen noch ändern. Messen ist weiter möglich.</translation>
-    </message>
-    <message>
         <source>New result: choose one</source>
         <translation>Neues Ergebnis: wählen</translation>
     </message>
@@ -10698,6 +10686,10 @@ von oben</translation>
     <message>
         <source>{words}, {lost} frames dropped</source>
         <translation>{words}, {lost} ausgefallen</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not respond. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
+        <translation>Der Server der Einrichtung antwortet nicht. Bis dahin lassen sich Patienten und Sitzungen weder zeigen noch ändern. Messen ist weiter möglich.</translation>
     </message>
 </context>
 <context>
@@ -10885,12 +10877,12 @@ von oben</translation>
         <translation>„{name}“ messen</translation>
     </message>
     <message>
-        <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
-        <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben das Pseudonym ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
-    </message>
-    <message>
         <source>Measure without the patient list</source>
         <translation>Ohne die Patientenliste messen</translation>
+    </message>
+    <message>
+        <source>The patient list returns when the server responds. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
+        <translation>Die Patientenliste erscheint wieder, sobald der Server antwortet. Um jetzt zu messen, geben Sie oben das Pseudonym ein. Die Sitzung wird gespeichert und erscheint später in der Liste.</translation>
     </message>
 </context>
 </TS>

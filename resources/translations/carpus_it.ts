@@ -1608,14 +1608,6 @@
         <translation>Raggiungimento {time}</translation>
     </message>
     <message>
-        <source>Contact occluded</source>
-        <translation>Contatto nascosto</translation>
-    </message>
-    <message>
-        <source>Touched {met} of {all}</source>
-        <translation>Toccate {met} su {all}</translation>
-    </message>
-    <message>
         <source>Reach and grasp</source>
         <translation>Raggiungere e afferrare</translation>
     </message>
@@ -1638,10 +1630,6 @@
     <message>
         <source>Range of motion of the fingers</source>
         <translation>Escursione articolare delle dita</translation>
-    </message>
-    <message>
-        <source>total arcs over the same period</source>
-        <translation>archi totali nello stesso periodo</translation>
     </message>
     <message>
         <source>not visible</source>
@@ -1892,14 +1880,6 @@
         <translation>Seduta</translation>
     </message>
     <message>
-        <source>Length</source>
-        <translation>Durata</translation>
-    </message>
-    <message>
-        <source>{weeks} before</source>
-        <translation>{weeks} prima</translation>
-    </message>
-    <message>
         <source>Range of motion</source>
         <translation>Escursione articolare</translation>
     </message>
@@ -2042,10 +2022,6 @@
     <message>
         <source>{seconds} s occluded and not analysed</source>
         <translation>{seconds} s nascosti e non analizzati</translation>
-    </message>
-    <message>
-        <source>Up and down</source>
-        <translation>Su e giù</translation>
     </message>
     <message>
         <source>{angle} at most</source>
@@ -2560,10 +2536,6 @@
         <translation>{size} in meno</translation>
     </message>
     <message>
-        <source>{difference} since the first</source>
-        <translation>{difference} rispetto alla prima</translation>
-    </message>
-    <message>
         <source>{difference}, within MDC ({limit})</source>
         <translation>{difference}, entro l’MDC ({limit})</translation>
     </message>
@@ -2810,10 +2782,6 @@
     <message>
         <source>Run: sudo apt-get install libopenni2-0</source>
         <translation>Eseguire: sudo apt-get install libopenni2-0</translation>
-    </message>
-    <message>
-        <source>Start the window from a desktop. The commands for files work without a screen.</source>
-        <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
     </message>
     <message>
         <source>Swap the two labels, or click both markers again.</source>
@@ -3108,10 +3076,6 @@
         <translation>mano</translation>
     </message>
     <message>
-        <source>hand is {json}, right or left expected</source>
-        <translation>hand è {json}, atteso right o left</translation>
-    </message>
-    <message>
         <source>hand {hand}</source>
         <translation>hand {hand}</translation>
     </message>
@@ -3172,10 +3136,6 @@
         <translation>le colonne non corrispondono ai nomi</translation>
     </message>
     <message>
-        <source>its side with one marker here</source>
-        <translation>qui il lato del cuneo con un marcatore</translation>
-    </message>
-    <message>
         <source>times out of order</source>
         <translation>tempi non crescenti</translation>
     </message>
@@ -3196,16 +3156,8 @@
         <translation>più grande di 2 GB</translation>
     </message>
     <message>
-        <source>less than {least_overlap_s} s of overlap, or no movement</source>
-        <translation>meno di {least_overlap_s} s di sovrapposizione, o nessun movimento</translation>
-    </message>
-    <message>
         <source>line {number} is not a time and a file name: {content}</source>
         <translation>la riga {number} non contiene un tempo e un nome di file: {content}</translation>
-    </message>
-    <message>
-        <source>line {number} leads out of the folder: {content}</source>
-        <translation>la riga {number} porta fuori dalla cartella: {content}</translation>
     </message>
     <message>
         <source>line {number}: {time_s} s after {earlier} s</source>
@@ -3448,14 +3400,6 @@
         <translation>ancora in registrazione</translation>
     </message>
     <message>
-        <source>straight_fingers is not five times true or false, thumb to little</source>
-        <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
-    </message>
-    <message>
-        <source>the curves match by {match} at best. Check that it is the same movement</source>
-        <translation>la concordanza delle curve è al massimo {match}. Controllare che sia lo stesso movimento</translation>
-    </message>
-    <message>
         <source>the curves are opposite, or the time shift is more than {most} s</source>
         <translation>le curve sono opposte, o lo sfasamento supera {most} s</translation>
     </message>
@@ -3470,14 +3414,6 @@
     <message>
         <source>the session contains no frames</source>
         <translation>la seduta non contiene fotogrammi</translation>
-    </message>
-    <message>
-        <source>the two do not overlap in time</source>
-        <translation>le due non si sovrappongono nel tempo</translation>
-    </message>
-    <message>
-        <source>the wedge’s side with two markers here</source>
-        <translation>qui il lato del cuneo con due marcatori</translation>
     </message>
     <message>
         <source>file not found</source>
@@ -3506,10 +3442,6 @@
     <message>
         <source>{firmware}, the library asks for {wanted}</source>
         <translation>{firmware}, la libreria richiede {wanted}</translation>
-    </message>
-    <message>
-        <source>{folder}: {there} cannot be written to</source>
-        <translation>{folder}: in {there} non si può scrivere</translation>
     </message>
     <message>
         <source>{found}, cannot be loaded: {trouble}</source>
@@ -3630,10 +3562,6 @@
     <message>
         <source>{name} changes within the file</source>
         <translation>{name} cambia all’interno del file</translation>
-    </message>
-    <message>
-        <source>{name} is {json}, two pixels expected</source>
-        <translation>{name} è {json}, attesi due pixel</translation>
     </message>
     <message>
         <source>{np} frames missing</source>
@@ -4044,14 +3972,6 @@
         <translation>Il computer è occupato</translation>
     </message>
     <message>
-        <source>Catching up…</source>
-        <translation>Analisi in corso…</translation>
-    </message>
-    <message>
-        <source>Catching up: {seconds} s left</source>
-        <translation>Analisi: ancora {seconds} s</translation>
-    </message>
-    <message>
         <source>{time} of {whole}</source>
         <translation>{time} di {whole}</translation>
     </message>
@@ -4130,10 +4050,6 @@
     <message>
         <source>the reference contains both hands: {names} are used</source>
         <translation>Il riferimento contiene entrambe le mani; si usano {names}</translation>
-    </message>
-    <message>
-        <source>the markers of the two are {apart} mm apart, up to {most} mm is expected: other markers, another hand, or jumps</source>
-        <translation>i marcatori dei due distano {apart} mm, attesi al massimo {most} mm: altri marcatori, un’altra mano o salti</translation>
     </message>
     <message>
         <source>no marker {wanted}, only {names}</source>
@@ -4912,10 +4828,6 @@
         <translation>file mancante</translation>
     </message>
     <message>
-        <source>not readable</source>
-        <translation>non leggibile</translation>
-    </message>
-    <message>
         <source>This image cannot be read. Choose a PNG or JPEG file.</source>
         <translation>Questa immagine non si può leggere. Scegliere un file PNG o JPEG.</translation>
     </message>
@@ -4930,14 +4842,6 @@
     <message>
         <source>This image is too small to print. Choose one of at least 32 × 32 pixels.</source>
         <translation>Questa immagine è troppo piccola per la stampa. Sceglierne una di almeno 32 × 32 pixel.</translation>
-    </message>
-    <message>
-        <source>Send the patient again from the practice system, or choose the patient in Carpus.</source>
-        <translation>Inviare di nuovo il paziente dal gestionale oppure sceglierlo in Carpus.</translation>
-    </message>
-    <message>
-        <source>The practice system’s file cannot be read: {subject} ({detail}).</source>
-        <translation>Il file del gestionale non può essere letto: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>Rotation</source>
@@ -5492,10 +5396,6 @@
         <translation>Diagnosi o intervento</translation>
     </message>
     <message>
-        <source>Since</source>
-        <translation>Da</translation>
-    </message>
-    <message>
         <source>Last session</source>
         <translation>Ultima seduta</translation>
     </message>
@@ -5508,16 +5408,8 @@
         <translation>Alla fine del pugno le articolazioni IFP e IFD sono nascoste. Le loro escursioni sono valori minimi (≥).</translation>
     </message>
     <message>
-        <source>Behind the cup the thumb may be occluded. The results say for how long.</source>
-        <translation>Dietro il bicchiere il pollice può essere nascosto. I risultati indicano per quanto tempo.</translation>
-    </message>
-    <message>
         <source>Below about 25° of pronation the markers are occluded. Only the visible part is measured.</source>
         <translation>Sotto circa 25° di pronazione i marcatori sono nascosti. Si misura solo la parte visibile.</translation>
-    </message>
-    <message>
-        <source>Movement of the forearm appears in the angle.</source>
-        <translation>I movimenti dell’avambraccio alterano l’angolo.</translation>
     </message>
     <message>
         <source>Occluded joints are not measured.</source>
@@ -5538,10 +5430,6 @@
     <message>
         <source>Value</source>
         <translation>Valore</translation>
-    </message>
-    <message>
-        <source>Remark</source>
-        <translation>Osservazione</translation>
     </message>
     <message>
         <source>Analysed</source>
@@ -5590,10 +5478,6 @@
     <message>
         <source>distal palmar crease</source>
         <translation>piega palmare distale</translation>
-    </message>
-    <message>
-        <source>complete list on the next page</source>
-        <translation>elenco completo nella pagina seguente</translation>
     </message>
     <message>
         <source>The therapist’s comment is on the last {count} pages.</source>
@@ -5860,14 +5744,6 @@
         <translation>Velocità massima, media ± DS</translation>
     </message>
     <message>
-        <source>Suggested from the last session:</source>
-        <translation>Proposta dall’ultima seduta:</translation>
-    </message>
-    <message>
-        <source>Suggested from the last {count} sessions:</source>
-        <translation>Proposta dalle ultime {count} sedute:</translation>
-    </message>
-    <message>
         <source>Camera within tolerance: errors up to {angle}° and {length} mm (limits: {most_angle}° and {most_length} mm).</source>
         <translation>Telecamera entro la tolleranza: scarto massimo {angle}° e {length} mm (limiti: {most_angle}° e {most_length} mm).</translation>
     </message>
@@ -6044,10 +5920,6 @@ cm</translation>
     <message>
         <source>men</source>
         <translation>uomini</translation>
-    </message>
-    <message>
-        <source>to 54 years</source>
-        <translation>fino a 54 anni</translation>
     </message>
     <message>
         <source>In the middle of the back of the wrist, in the small hollow.</source>
@@ -6417,6 +6289,126 @@ cm</translation>
         <source>These sessions cannot be used as a test–retest study: {subject} ({detail}).</source>
         <translation>Queste sedute non si possono usare come studio test-retest: {subject} ({detail}).</translation>
     </message>
+    <message>
+        <source>Thumb contact occluded</source>
+        <translation>Contatto nascosto</translation>
+    </message>
+    <message>
+        <source>Touched {met} of {all} fingertips</source>
+        <translation>Toccate {met} su {all}</translation>
+    </message>
+    <message>
+        <source>total arcs in the same period</source>
+        <translation>archi totali nello stesso periodo</translation>
+    </message>
+    <message>
+        <source>Duration</source>
+        <translation>Durata</translation>
+    </message>
+    <message>
+        <source>{weeks} before this session</source>
+        <translation>{weeks} prima</translation>
+    </message>
+    <message>
+        <source>{difference} since first session</source>
+        <translation>{difference} rispetto alla prima</translation>
+    </message>
+    <message>
+        <source>Start Carpus from a desktop session. The commands for files work without a screen.</source>
+        <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
+    </message>
+    <message>
+        <source>hand is {json}, but right or left is expected</source>
+        <translation>hand è {json}, atteso right o left</translation>
+    </message>
+    <message>
+        <source>side of the wedge with one marker</source>
+        <translation>qui il lato del cuneo con un marcatore</translation>
+    </message>
+    <message>
+        <source>session and reference overlap by less than {least_overlap_s} s, or nothing moves</source>
+        <translation>meno di {least_overlap_s} s di sovrapposizione, o nessun movimento</translation>
+    </message>
+    <message>
+        <source>line {number} names a file outside the folder: {content}</source>
+        <translation>la riga {number} porta fuori dalla cartella: {content}</translation>
+    </message>
+    <message>
+        <source>straight_fingers must be five values, true or false, from thumb to little finger</source>
+        <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
+    </message>
+    <message>
+        <source>the best match of the curves is only {match}. Check that they show the same movement</source>
+        <translation>la concordanza delle curve è al massimo {match}. Controllare che sia lo stesso movimento</translation>
+    </message>
+    <message>
+        <source>session and reference do not overlap in time</source>
+        <translation>le due non si sovrappongono nel tempo</translation>
+    </message>
+    <message>
+        <source>side of the wedge with two markers</source>
+        <translation>qui il lato del cuneo con due marcatori</translation>
+    </message>
+    <message>
+        <source>{folder}: cannot write to {there}</source>
+        <translation>{folder}: in {there} non si può scrivere</translation>
+    </message>
+    <message>
+        <source>{name} is {json}, but two pixel coordinates are expected</source>
+        <translation>{name} è {json}, attesi due pixel</translation>
+    </message>
+    <message>
+        <source>Analysing…</source>
+        <translation>Analisi in corso…</translation>
+    </message>
+    <message>
+        <source>Analysing: {seconds} s left</source>
+        <translation>Analisi: ancora {seconds} s</translation>
+    </message>
+    <message>
+        <source>the markers of session and reference are {apart} mm apart (expected: up to {most} mm). They may be other markers or another hand, or the markers may jump</source>
+        <translation>i marcatori dei due distano {apart} mm, attesi al massimo {most} mm: altri marcatori, un’altra mano o salti</translation>
+    </message>
+    <message>
+        <source>Send the patient again from the clinic software, or choose the patient in Carpus.</source>
+        <translation>Inviare di nuovo il paziente dal gestionale oppure sceglierlo in Carpus.</translation>
+    </message>
+    <message>
+        <source>The file from the clinic software cannot be read: {subject} ({detail}).</source>
+        <translation>Il file del gestionale non può essere letto: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Time since</source>
+        <translation>Da</translation>
+    </message>
+    <message>
+        <source>The cup may occlude the thumb. The results show for how long.</source>
+        <translation>Dietro il bicchiere il pollice può essere nascosto. I risultati indicano per quanto tempo.</translation>
+    </message>
+    <message>
+        <source>Any movement of the forearm is included in the angle.</source>
+        <translation>I movimenti dell’avambraccio alterano l’angolo.</translation>
+    </message>
+    <message>
+        <source>Status</source>
+        <translation>Stato</translation>
+    </message>
+    <message>
+        <source>see the next page for the complete list</source>
+        <translation>elenco completo nella pagina seguente</translation>
+    </message>
+    <message>
+        <source>Proposed from the last session:</source>
+        <translation>Proposta dall’ultima seduta:</translation>
+    </message>
+    <message>
+        <source>Proposed from the last {count} sessions:</source>
+        <translation>Proposta dalle ultime {count} sedute:</translation>
+    </message>
+    <message>
+        <source>up to 54 years</source>
+        <translation>fino a 54 anni</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -6464,16 +6456,8 @@ cm</translation>
         <translation>Solo manuale</translation>
     </message>
     <message>
-        <source>the last 14, plus one per month for 2 years</source>
-        <translation>le ultime 14, più una al mese per 2 anni</translation>
-    </message>
-    <message>
         <source>Backup folder</source>
         <translation>Cartella</translation>
-    </message>
-    <message>
-        <source>Automatic</source>
-        <translation>Ogni giorno</translation>
     </message>
     <message>
         <source>Keep</source>
@@ -6502,6 +6486,14 @@ cm</translation>
     <message>
         <source>The changes are shown first.</source>
         <translation>Prima si vedono le modifiche.</translation>
+    </message>
+    <message>
+        <source>the last 14 backups, plus one per month for 2 years</source>
+        <translation>le ultime 14, più una al mese per 2 anni</translation>
+    </message>
+    <message>
+        <source>Automatic backup</source>
+        <translation>Copia automatica</translation>
     </message>
 </context>
 <context>
@@ -6660,20 +6652,12 @@ cm</translation>
         <translation>Inizia</translation>
     </message>
     <message>
-        <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again after a knock or when the check card asks for it.</source>
-        <translation>La calibrazione richiede cinque minuti. Misura l’obiettivo, l’errore di profondità e l’allineamento fra profondità e colore. Eseguirla una volta per telecamera, e di nuovo dopo un urto o se lo chiede il cartoncino di controllo.</translation>
-    </message>
-    <message>
         <source>Calibrate the camera</source>
         <translation>Calibrare la telecamera</translation>
     </message>
     <message>
         <source>1  Print the board</source>
         <translation>1  Stampare la tavola</translation>
-    </message>
-    <message>
-        <source>Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a thick board. Then measure the printed ruler.</source>
-        <translation>Stampare al 100 % (“dimensioni effettive”) su carta comune. Incollare ben piano su qualcosa di rigido, come vetro o cartone spesso. Poi misurare il righello stampato.</translation>
     </message>
     <message>
         <source>Use even light without reflections. The screen shows where to hold the board. Images are taken automatically when it is still, sharp and in a new position. No image is saved, and nothing changes until you confirm.</source>
@@ -6694,6 +6678,14 @@ cm</translation>
     <message>
         <source>2  Show it to the camera</source>
         <translation>2  Mostrarla alla telecamera</translation>
+    </message>
+    <message>
+        <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again if the camera was knocked or is out of tolerance.</source>
+        <translation>La calibrazione richiede cinque minuti. Misura l’obiettivo, l’errore di profondità e l’allineamento fra profondità e colore. Eseguirla una volta per telecamera, e di nuovo dopo un urto o se lo chiede il cartoncino di controllo.</translation>
+    </message>
+    <message>
+        <source>Print at 100 % (“actual size”) on plain paper. Glue the print flat onto something stiff, such as glass or thick cardboard. Then measure the printed ruler.</source>
+        <translation>Stampare al 100 % (“dimensioni effettive”) su carta comune. Incollare ben piano su qualcosa di rigido, come vetro o cartone spesso. Poi misurare il righello stampato.</translation>
     </message>
 </context>
 <context>
@@ -6745,10 +6737,6 @@ cm</translation>
         <translation>Telecamera</translation>
     </message>
     <message>
-        <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within tolerance.</source>
-        <translation>Una tavola stampata calibra la telecamera. Un cartoncino stampato controlla in 30 secondi se misura ancora entro la tolleranza.</translation>
-    </message>
-    <message>
         <source>Chec&amp;k card…</source>
         <translation>Cartoncino di con&amp;trollo…</translation>
     </message>
@@ -6759,6 +6747,10 @@ cm</translation>
     <message>
         <source>In the demo the camera is simulated. It needs no calibration.</source>
         <translation>Nella demo la telecamera è simulata. Non serve calibrarla.</translation>
+    </message>
+    <message>
+        <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether the camera is still within tolerance.</source>
+        <translation>Una tavola stampata calibra la telecamera. Un cartoncino stampato controlla in 30 secondi se misura ancora entro la tolleranza.</translation>
     </message>
 </context>
 <context>
@@ -6824,10 +6816,6 @@ cm</translation>
     <message>
         <source>Simulated camera</source>
         <translation>Telecamera simulata</translation>
-    </message>
-    <message>
-        <source>A simulated hand does the exercise, to try things out. It is marked as simulated.</source>
-        <translation>Per fare prove, una mano simulata esegue l’esercizio. È segnata come simulata.</translation>
     </message>
     <message>
         <source>Choose a &amp;file…</source>
@@ -6908,6 +6896,10 @@ cm</translation>
     <message>
         <source>Choose an image folder</source>
         <translation>Scegliere una cartella di immagini</translation>
+    </message>
+    <message>
+        <source>A simulated hand does the exercise, so that you can try Carpus. The session is marked as simulated.</source>
+        <translation>Per fare prove, una mano simulata esegue l’esercizio. È segnata come simulata.</translation>
     </message>
 </context>
 <context>
@@ -8025,10 +8017,6 @@ dall’alto</translation>
         <translation>Vista del paziente</translation>
     </message>
     <message>
-        <source>Catching up</source>
-        <translation>Analisi in corso</translation>
-    </message>
-    <message>
         <source>The recording plays from its first frame</source>
         <translation>La registrazione riparte dal primo fotogramma</translation>
     </message>
@@ -8076,6 +8064,10 @@ dall’alto</translation>
         <source>Preparing the simulated hand</source>
         <translation>Preparazione della mano simulata</translation>
     </message>
+    <message>
+        <source>Progress of the analysis</source>
+        <translation>Avanzamento dell’analisi</translation>
+    </message>
 </context>
 <context>
     <name>LockCard</name>
@@ -8108,10 +8100,6 @@ dall’alto</translation>
         <translation>PIN</translation>
     </message>
     <message>
-        <source>locks now</source>
-        <translation>blocca ora</translation>
-    </message>
-    <message>
         <source>Change PIN…</source>
         <translation>Cambia il PIN…</translation>
     </message>
@@ -8122,6 +8110,10 @@ dall’alto</translation>
     <message>
         <source>After 30 min</source>
         <translation>Dopo 30 min</translation>
+    </message>
+    <message>
+        <source>lock now</source>
+        <translation>blocca ora</translation>
     </message>
 </context>
 <context>
@@ -8252,7 +8244,7 @@ dall’alto</translation>
         <translation>precedente</translation>
     </message>
     <message>
-        <source>Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day ({sign} = minimum), not saved here; type over it to enter a goniometer value.</source>
+        <source>Extension: − is a deficit, + is hyperextension. Values in italics were measured by Carpus on this day ({sign} = minimum) and are not saved here. Type over them to enter goniometer values.</source>
         <translation>Estensione: − deficit, + iperestensione. Colorato e in corsivo: misurato da Carpus in questo giorno ({sign} = minimo), non viene salvato qui; sovrascrivere per inserire un valore del goniometro.</translation>
     </message>
 </context>
@@ -8338,10 +8330,6 @@ dall’alto</translation>
         <translation>Misure manuali, {day}</translation>
     </message>
     <message>
-        <source>Proposed, recording of {day}: at least {score}</source>
-        <translation>Proposta dalla registrazione in data {day}: almeno {score}</translation>
-    </message>
-    <message>
         <source>Manual and Carpus values are kept separate</source>
         <translation>I valori manuali e quelli di Carpus restano separati</translation>
     </message>
@@ -8354,7 +8342,11 @@ dall’alto</translation>
         <translation>Inseriti da {initials}.</translation>
     </message>
     <message>
-        <source>Grip of this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
+        <source>Proposed from the recording of {day}: at least {score}</source>
+        <translation>Proposta, registrazione del {day}: almeno {score}</translation>
+    </message>
+    <message>
+        <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
         <translation>Forza di presa per età e sesso: {mean} ± {sd} kg ({source}, dinamometro Smedley).</translation>
     </message>
 </context>
@@ -8568,16 +8560,16 @@ dall’alto</translation>
         <translation>{name}: risposte in numeri</translation>
     </message>
     <message>
-        <source>Answers of the paper form in order, - for none. Only the score is saved.</source>
-        <translation>Risposte del modulo cartaceo in ordine, “-” per nessuna risposta. Viene salvato solo il punteggio.</translation>
-    </message>
-    <message>
-        <source>not an answer</source>
-        <translation>risposta non valida</translation>
-    </message>
-    <message>
         <source>{count} of {all}</source>
         <translation>{count} di {all}</translation>
+    </message>
+    <message>
+        <source>Enter the answers of the paper form in order, with - for no answer. Only the score is saved.</source>
+        <translation>Risposte del modulo cartaceo in ordine, - per nessuna. Viene salvato solo il punteggio.</translation>
+    </message>
+    <message>
+        <source>not a valid answer</source>
+        <translation>non è una risposta</translation>
     </message>
 </context>
 <context>
@@ -9230,28 +9222,12 @@ dall’alto</translation>
 <context>
     <name>PracticeSystemCard</name>
     <message>
-        <source>The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to practice system” next to a report writes its values and the PDF into the second. These files contain real names.</source>
-        <translation>Il gestionale salva i dati di un paziente come file GDT 2.1 nella prima cartella, e Carpus apre il paziente. “Invia al gestionale”, accanto a una relazione, salva i valori e il PDF nella seconda. Questi file contengono i nomi veri.</translation>
-    </message>
-    <message>
         <source>Change…</source>
         <translation>Cambia…</translation>
     </message>
     <message>
         <source>Test the folders</source>
         <translation>Verifica le cartelle</translation>
-    </message>
-    <message>
-        <source>Practice system (GDT)</source>
-        <translation>Gestionale (GDT)</translation>
-    </message>
-    <message>
-        <source>Patients from the practice system</source>
-        <translation>Pazienti dal gestionale</translation>
-    </message>
-    <message>
-        <source>Results for the practice system</source>
-        <translation>Risultati per il gestionale</translation>
     </message>
     <message>
         <source>Choose a folder</source>
@@ -9264,6 +9240,22 @@ dall’alto</translation>
     <message>
         <source>Turn off</source>
         <translation>Disattiva</translation>
+    </message>
+    <message>
+        <source>The clinic software writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the patient. “Send to clinic software” next to a report writes its values and the PDF into the second folder. These files contain real names.</source>
+        <translation>Il gestionale salva i dati di un paziente come file GDT 2.1 nella prima cartella, e Carpus apre il paziente. “Invia al gestionale”, accanto a una relazione, salva i valori e il PDF nella seconda. Questi file contengono i nomi veri.</translation>
+    </message>
+    <message>
+        <source>Clinic software (GDT)</source>
+        <translation>Gestionale (GDT)</translation>
+    </message>
+    <message>
+        <source>Patients from the clinic software</source>
+        <translation>Pazienti dal gestionale</translation>
+    </message>
+    <message>
+        <source>Results for the clinic software</source>
+        <translation>Risultati per il gestionale</translation>
     </message>
 </context>
 <context>
@@ -9453,10 +9445,6 @@ dall’alto</translation>
         <translation>de-identificato</translation>
     </message>
     <message>
-        <source>finished later</source>
-        <translation>terminato più tardi</translation>
-    </message>
-    <message>
         <source>with a PIN</source>
         <translation>con PIN</translation>
     </message>
@@ -9571,6 +9559,10 @@ dall’alto</translation>
     <message>
         <source>Records past their retention period</source>
         <translation>Conservazione scaduta</translation>
+    </message>
+    <message>
+        <source>completed later</source>
+        <translation>terminato più tardi</translation>
     </message>
 </context>
 <context>
@@ -9854,16 +9846,16 @@ dall’alto</translation>
         <translation>Salvata</translation>
     </message>
     <message>
-        <source>Send to practice system</source>
-        <translation>Invia al gestionale</translation>
-    </message>
-    <message>
         <source>{pages}, readable in black and white. Contains the patient’s real name: store it securely.</source>
         <translation>{pages}, leggibile anche in bianco e nero. Contiene il nome vero del paziente: conservare in luogo sicuro.</translation>
     </message>
     <message>
         <source>{pages}, readable in black and white. Contains the pseudonym, not the real name.</source>
         <translation>{pages}, leggibile anche in bianco e nero. Contiene lo pseudonimo, non il nome vero.</translation>
+    </message>
+    <message>
+        <source>Send to clinic software</source>
+        <translation>Invia al gestionale</translation>
     </message>
 </context>
 <context>
@@ -10225,10 +10217,6 @@ dall’alto</translation>
         <translation>Chiudi</translation>
     </message>
     <message>
-        <source>Exercises that run one after the other with the same markers. Each becomes a session of its own.</source>
-        <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno diventa una seduta a sé.</translation>
-    </message>
-    <message>
         <source>Exercise</source>
         <translation>Esercizio</translation>
     </message>
@@ -10267,6 +10255,10 @@ dall’alto</translation>
     <message>
         <source>Exercise sets</source>
         <translation>Sequenze di esercizi</translation>
+    </message>
+    <message>
+        <source>Exercises that run one after the other with the same markers. Each is saved as its own session.</source>
+        <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno diventa una seduta a sé.</translation>
     </message>
 </context>
 <context>
@@ -10680,10 +10672,6 @@ dall’alto</translation>
         <translation>Vecchio e nuovo sovrapposti</translation>
     </message>
     <message>
-        <source>The clinic’s server does not answer. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
-        <translation>Il server del centro non risponde. Fino ad allora pazienti e sedute non si possono mostrare né modificare. Si può continuare a misurare.</translation>
-    </message>
-    <message>
         <source>New result: choose one</source>
         <translation>Nuovo risultato: scegliere</translation>
     </message>
@@ -10698,6 +10686,10 @@ dall’alto</translation>
     <message>
         <source>{words}, {lost} frames dropped</source>
         <translation>{words}, {lost} persi</translation>
+    </message>
+    <message>
+        <source>The clinic’s server does not respond. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
+        <translation>Il server del centro non risponde. Fino ad allora pazienti e sedute non si possono mostrare né modificare. Si può continuare a misurare.</translation>
     </message>
 </context>
 <context>
@@ -10885,12 +10877,12 @@ dall’alto</translation>
         <translation>Misura “{name}”</translation>
     </message>
     <message>
-        <source>The patient list returns when the server answers. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
-        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
-    </message>
-    <message>
         <source>Measure without the patient list</source>
         <translation>Misura senza l’elenco dei pazienti</translation>
+    </message>
+    <message>
+        <source>The patient list returns when the server responds. To measure now, enter the patient’s pseudonym above. The session is saved and appears in the list later.</source>
+        <translation>L’elenco dei pazienti torna quando il server risponde. Per misurare ora, inserire qui sopra lo pseudonimo del paziente. La seduta viene salvata e compare più tardi nell’elenco.</translation>
     </message>
 </context>
 </TS>

@@ -161,7 +161,7 @@ def test_opposition_hidden_touches_are_unknown() -> None:
             assert math.isnan(unseen.mean)
             assert named(plain, name, f"TIP1-TIP{k}").unknown_reason == ""
     assert task_summary(figures) == "Thumb contact was occluded"
-    assert short_task_summary(figures) == "Contact occluded"
+    assert short_task_summary(figures) == "Thumb contact occluded"
     assert not any(
         math.isfinite(item.mean)
         for item in figures.measures_in_group("task")

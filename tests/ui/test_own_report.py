@@ -108,7 +108,7 @@ def test_progress_report_lists_all_manual_values_that_have_no_room(tmp_path: Pat
     course = build_progress_report(FakeSessions().history("linden"), manual_values=values)
     path = write_report(course, tmp_path / "x.pdf")
     words = words_of(path)
-    assert "complete list on the next page" in words
+    assert "see the next page for the complete list" in words
     assert words.count(LEGAL_SENTENCE) == pages_of(path) > 2
     assert [day for day in days if numbers.format_date(day) not in words] == []
 

@@ -154,7 +154,7 @@ def _manual_changes(progress: Progress) -> list[Part]:
     below = [paragraph(words, 8.5)] if words else []
     aside = tr("not combined with the values above")
     if _has_manual_pages(progress):
-        aside += "; " + tr("complete list on the next page")
+        aside += "; " + tr("see the next page for the complete list")
     return [column(section_title(tr("Manual measurements"), aside), shown, *below, gap=2.0)]
 
 

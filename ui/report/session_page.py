@@ -238,7 +238,7 @@ def _facts(report: SessionReport) -> list[Part]:
         (tr("Date"), numbers.format_date_time(results.when)),
         (tr("Session"), session),
         (tr("Hand"), ", ".join(filter(None, (hand, terms.hand_dominance(report.dominance))))),
-        (tr("Length"), numbers.format_clock(results.duration_s + 0.5)),
+        (tr("Duration"), numbers.format_clock(results.duration_s + 0.5)),
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
     lines = [
@@ -259,7 +259,7 @@ def _diagnosis_words(report: SessionReport) -> str:
         return ""
     parts = [report.diagnosis, to_mid_sentence(terms.onset_words(report.onset, day))]
     if day is not None and (weeks := numbers.format_weeks_since(day, report.results.when.date())):
-        parts.append(tr("{weeks} before").format(weeks=weeks))
+        parts.append(tr("{weeks} before this session").format(weeks=weeks))
     return ", ".join(part for part in parts if part)
 
 
@@ -360,7 +360,7 @@ def _wrist_section(results: SessionResults) -> list[Part]:
         if row.quantity == "arc"
     ]
     shown = line(*arcs) if arcs else paragraph(tr("not visible"), 8.5, REGULAR, "text2")
-    return [column(section_title(tr("Wrist"), tr("total arcs over the same period")), shown, rule(), gap=2.0)]
+    return [column(section_title(tr("Wrist"), tr("total arcs in the same period")), shown, rule(), gap=2.0)]
 
 
 def _finger_curve_section(curves: WristCurves, joints: JointCurves, results: SessionResults) -> list[Part]:

@@ -145,8 +145,10 @@ def short_task_summary(results: SessionResults) -> str:
     if results.exercise.is_task and reach is not None:
         return tr("Reach {time}").format(time=_value(reach))
     if any(item.unknown_reason for item in touches):
-        return tr("Contact occluded")
-    return tr("Touched {met} of {all}").format(met=_count_touches(touches), all=len(touches)) if touches else ""
+        return tr("Thumb contact occluded")
+    return (
+        tr("Touched {met} of {all} fingertips").format(met=_count_touches(touches), all=len(touches)) if touches else ""
+    )
 
 
 def _find_value(results: SessionResults, of: str, what: str) -> Measure | None:

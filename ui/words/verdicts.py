@@ -78,7 +78,7 @@ def difference_words(change_deg: float) -> str:
 def change_since_first(verdict: str, change_deg: float) -> str:
     """Return the short form for the patient's card."""
     if verdict in ("improved", "worse"):
-        return tr("{difference} since the first").format(difference=difference_words(change_deg))
+        return tr("{difference} since first session").format(difference=difference_words(change_deg))
     if verdict == "no_change":
         return verdict_word(verdict)
     return ""

@@ -122,8 +122,8 @@ def card_sheet(paper: Paper) -> PrintedSheet:
     texts = [
         SheetText(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
         *(SheetText(step, 20.0, 28.0 + 5.0 * k) for k, step in enumerate(steps)),
-        SheetText(phrase("the wedge’s side with two markers here"), left + 1.0, top + 5.0, 7.0),
-        SheetText(phrase("its side with one marker here"), left + 4.0, bottom - 2.5, 7.0),
+        SheetText(phrase("side of the wedge with two markers"), left + 1.0, top + 5.0, 7.0),
+        SheetText(phrase("side of the wedge with one marker"), left + 4.0, bottom - 2.5, 7.0),
     ]
     return PrintedSheet(width_mm, height_mm, (*discs, *foot, *texts, *ruler_items(20.0, height_mm - 14.0)))
 

@@ -363,7 +363,10 @@ def _parse_entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     inside = PurePath(on_windows.as_posix())
     if inside.is_absolute() or on_windows.drive or on_windows.root or ".." in inside.parts or "\0" in names[0]:
         raise RecordingUnreadable(
-            path, phrase("line {number} leads out of the folder: {content}", number=number, content=f"{content[:60]!r}")
+            path,
+            phrase(
+                "line {number} names a file outside the folder: {content}", number=number, content=f"{content[:60]!r}"
+            ),
         )
     return time_s, path.parent / inside
 

@@ -43,12 +43,12 @@ MOVEMENTS: Mapping[str, MovementWords] = {
 # The whole arc of each angle, where more than one is shown.
 ARC_NAMES = (phrase("Radial–ulnar deviation"), phrase("Flexion–extension"), phrase("Forearm rotation"))
 # Each angle where it should stay still.
-STILL_NAMES = (phrase("Radial–ulnar deviation"), phrase("Up and down"), phrase("Rotation from the start"))
+STILL_NAMES = (phrase("Radial–ulnar deviation"), phrase("Flexion–extension"), phrase("Rotation from the start"))
 
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
 AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)  # Outermost tick and end of the fixed axis of each angle on every screen and page.
 
-_FOREARM_LIMIT = phrase("Movement of the forearm appears in the angle.")
+_FOREARM_LIMIT = phrase("Any movement of the forearm is included in the angle.")
 _RETURN_CUE, _TASK_TITLE = phrase("Come back to the middle"), phrase("Additional measures")
 
 # Measures besides ranges: paths of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
@@ -190,7 +190,7 @@ EXERCISES = (
         name=phrase("Reach and grasp"),
         instruction=phrase("Reach, take the cup, lift it a little, put it back, return."),
         position=phrase("Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away."),
-        limit=phrase("Behind the cup the thumb may be occluded. The results say for how long."),
+        limit=phrase("The cup may occlude the thumb. The results show for how long."),
         adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2,
         child_cues=(phrase("Take the cup"),) * 2,
         simulated_motion="reach_grasp",

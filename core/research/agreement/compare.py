@@ -161,7 +161,7 @@ def compare_session(
         else:
             pairs.append(pair)
     if not pairs:
-        raise ReferenceUnsuited(reference.path, phrase("the two do not overlap in time"))
+        raise ReferenceUnsuited(reference.path, phrase("session and reference do not overlap in time"))
     overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
     rate_hz = 1.0 / float(np.median(np.diff(reference_s))) if len(reference_s) > 1 else math.nan
     remarks = (*reference.remarks, *_alignment_remarks(alignment), *comparison_remarks(pairs, shift, overlap_s))
@@ -221,7 +221,10 @@ def _estimate_shift(
 
 
 def _overlap_error(reference: Reference) -> ReferenceUnsuited:
-    reason = phrase("less than {least_overlap_s} s of overlap, or no movement", least_overlap_s=f"{MIN_OVERLAP_S:g}")
+    reason = phrase(
+        "session and reference overlap by less than {least_overlap_s} s, or nothing moves",
+        least_overlap_s=f"{MIN_OVERLAP_S:g}",
+    )
     return ReferenceUnsuited(reference.path, reason)
 
 
@@ -235,7 +238,8 @@ def _check_match(reference: Reference, curves: AlignmentCurves, shift: ClockShif
         match = max(match, abs(curves.match(cleared)))
     if not match >= MIN_MATCH:
         words = phrase(
-            "the curves match by {match} at best. Check that it is the same movement", match=format_rounded(match, 2)
+            "the best match of the curves is only {match}. Check that they show the same movement",
+            match=format_rounded(match, 2),
         )
         raise ReferenceUnsuited(reference.path, words)
 
@@ -270,8 +274,8 @@ def _alignment_remarks(alignment: Alignment | None) -> list[str]:
         return []
     return [
         phrase(
-            "the markers of the two are {apart} mm apart, up to {most} mm is expected: "
-            "other markers, another hand, or jumps",
+            "the markers of session and reference are {apart} mm apart (expected: up to {most} mm). They may be "
+            "other markers or another hand, or the markers may jump",
             apart=format_rounded(1e3 * alignment.residual_m, 1),
             most=format_rounded(1e3 * MAX_RESIDUAL_M),
         )
@@ -414,7 +418,7 @@ def _angles_from_points(
     both = np.isfinite(there).all(axis=(1, 2)) & np.isfinite(measured).all(axis=(1, 2))
     both &= np.asarray(session.status) == TrackStatus.TRACKED
     if both.sum() < MIN_PAIRS:
-        raise ReferenceUnsuited(reference.path, phrase("the two do not overlap in time"))
+        raise ReferenceUnsuited(reference.path, phrase("session and reference do not overlap in time"))
     turn, move = so3.fit_rigid_transform(there[both].reshape(-1, 3), measured[both].reshape(-1, 3))
     off = there[both] @ turn.T + move - measured[both]
     known = np.isfinite(reference_values).all(axis=(1, 2))

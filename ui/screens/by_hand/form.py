@@ -109,7 +109,7 @@ class MeasureRow(QObject):
             )
             self.answers_field.setAccessibleName(self.tr("{name}: answers by number").format(name=self.name.text()))
             self.answers_field.setToolTip(
-                self.tr("Answers of the paper form in order, - for none. Only the score is saved.")
+                self.tr("Enter the answers of the paper form in order, with - for no answer. Only the score is saved.")
             )
             shown.append((2, 2, self.answers_field))
         for column, columns, widget in shown:
@@ -127,7 +127,7 @@ class MeasureRow(QObject):
         score = math.nan if answers is None else facts.compute_score(answers)
         self.fields[0][1].set_value(round(score, self.measure.decimals))
         if answers is None:
-            self.side_text.setText(self.tr("not an answer"))
+            self.side_text.setText(self.tr("not a valid answer"))
         elif not math.isfinite(score):
             self.side_text.setText(self.tr("{count} of {all}").format(count=len(answers), all=facts.item_count))
 
@@ -257,8 +257,8 @@ class ManualForm(QWidget):
 
     def _add_fingers(self, line: int) -> None:
         words = self.tr(
-            "Extension: − deficit, + hyperextension. Tinted and italic: measured by Carpus on this day "
-            "({sign} = minimum), not saved here; type over it to enter a goniometer value."
+            "Extension: − is a deficit, + is hyperextension. Values in italics were measured by Carpus on this day "
+            "({sign} = minimum) and are not saved here. Type over them to enter goniometer values."
         )
         legend = Text(self._theme, words.format(sign=LOWER_BOUND), 12, REGULAR, "text2", wrap=True)
         self._headings["finger"][0].extend((self.fingers, legend))

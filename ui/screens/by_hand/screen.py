@@ -253,7 +253,9 @@ class ManualMeasurementsScreen(FittedWidget):
         zero = terms.thumb_up_words() if {"PRONATION", "SUPINATION"} & set(self.form.rows) else ""
         grip, norm = "", grip_norm_kg(to_person(self.record.patient, self.current_day))
         if norm is not None:
-            grip = self.tr("Grip of this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).")
+            grip = self.tr(
+                "Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer)."
+            )
             mean, sd = (numbers.format_fixed(value, 1) for value in norm)
             grip = grip.format(mean=mean, sd=sd, source=GRIP_SOURCE)
         self.basis_text.setText(" ".join(filter(None, (by, words, zero, why, grip))))
@@ -284,7 +286,7 @@ class ManualMeasurementsScreen(FittedWidget):
         if not isinstance(choice, KapandjiChoice):
             return
         found = propose_kapandji(self.record.figures, self.side, self.current_day)
-        words = self.tr("Proposed, recording of {day}: at least {score}")
+        words = self.tr("Proposed from the recording of {day}: at least {score}")
         choice.set_proposal(
             "" if found is None else words.format(day=numbers.format_day_month(found[1]), score=found[0])
         )

@@ -104,15 +104,15 @@ class BoardSetupView(QWidget):
         self._status_text = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         words = self.tr(
             "Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and "
-            "colour. Do it once for each camera, and again after a knock or when the check card asks for it."
+            "colour. Do it once for each camera, and again if the camera was knocked or is out of tolerance."
         )
         body.addWidget(heading(theme, self.tr("Calibrate the camera"), wrap=True))
         fill(body, Text(theme, words, 16, REGULAR, "text2", wrap=True), self._status_text)
         board = self._make_card(self.tr("1  Print the board"))
         board.body.addLayout(row_layout(self.paper, self.print_button, STRETCH, gap=12))
         words = self.tr(
-            "Print at 100 % (“actual size”) on plain paper. Glue it flat onto something stiff, such as glass or a "
-            "thick board. Then measure the printed ruler."
+            "Print at 100 % (“actual size”) on plain paper. Glue the print flat onto something stiff, such as glass "
+            "or thick cardboard. Then measure the printed ruler."
         )
         board.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         row = row_layout(Text(theme, self.tr("Length of the printed ruler"), 14), self.ruler_field, STRETCH, gap=12)

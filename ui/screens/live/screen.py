@@ -107,7 +107,7 @@ class LiveScreen(FittedWidget):
         self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.course_label.hide()
-        self.catch_up_bar = ThinProgressBar(theme, self.tr("Catching up"))
+        self.catch_up_bar = ThinProgressBar(theme, self.tr("Progress of the analysis"))
         self.catch_up_bar.hide()
         self.bubble = BubbleView(theme, wide=True, keys=False)
         self.note_dialog = NoteDialog(self.stage, theme)

@@ -210,5 +210,5 @@ def lag_light(lag: TrackingLag, *, recording: bool) -> StatusLight:
 def catch_up_words(counters: LiveCounters) -> str:
     """Return how long catching up takes, for the button that stopped."""
     if not math.isfinite(counters.tracking_lag_s):
-        return tr("Catching up…")
-    return tr("Catching up: {seconds} s left").format(seconds=max(1, math.ceil(counters.tracking_lag_s)))
+        return tr("Analysing…")
+    return tr("Analysing: {seconds} s left").format(seconds=max(1, math.ceil(counters.tracking_lag_s)))

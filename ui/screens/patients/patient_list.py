@@ -194,7 +194,7 @@ class PatientRowPainter(QStyledItemDelegate):
 def header_columns() -> list[str]:
     """Return the headings of the columns."""
     return [
-        tr("Patient"), tr("Hand"), tr("Diagnosis or operation"), tr("Since"), tr("Last session"), tr("Sessions"),
+        tr("Patient"), tr("Hand"), tr("Diagnosis or operation"), tr("Time since"), tr("Last session"), tr("Sessions"),
     ]  # fmt: skip
 
 

@@ -354,8 +354,8 @@ class _OfflineView(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         words = self.tr(
-            "The patient list returns when the server answers. To measure now, enter the patient’s pseudonym "
-            "above. The session is saved and appears in the list later."
+            "The patient list returns when the server responds. To measure now, enter the patient’s pseudonym above. "
+            "The session is saved and appears in the list later."
         )
         self.button = Button(theme, "", "primary")
         row = column_layout(

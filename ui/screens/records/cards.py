@@ -65,14 +65,14 @@ class BackupCard(Card):
         shows = caption(theme, self.tr("The changes are shown first."), wrap=True)
         acts = column_layout(self.now_button, self.progress, STRETCH, gap=4)
         again = column_layout(self.restore_button, shows, STRETCH, gap=4)
-        keep = Text(theme, self.tr("the last 14, plus one per month for 2 years"), 14)
+        keep = Text(theme, self.tr("the last 14 backups, plus one per month for 2 years"), 14)
         fill(
             self.body,
             row_layout((self.state_card, 1), acts, again, gap=16),
             Separator(theme),
             _make_row(theme, self.tr("Backup folder"), self.folder, self.folder_state, self.folder_button),
             Separator(theme),
-            _make_row(theme, self.tr("Automatic"), self.schedule),
+            _make_row(theme, self.tr("Automatic backup"), self.schedule),
             Separator(theme),
             _make_row(theme, self.tr("Keep"), keep),
             caption(theme, self.tr("Anyone with the backup disk can read it. Use an encrypted disk."), wrap=True),
@@ -130,7 +130,7 @@ class LockCard(Card):
         self.body.addLayout(
             row_layout(
                 self.pin_button,
-                (KeyCaps(theme, [(KEYS["lock"], self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter),
+                (KeyCaps(theme, [(KEYS["lock"], self.tr("lock now"))]), 0, Qt.AlignmentFlag.AlignVCenter),
                 STRETCH,
                 gap=20,
             )

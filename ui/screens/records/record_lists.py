@@ -178,7 +178,7 @@ class RecordListsController(QObject):
             "limits": (self.tr("1 study"), self.tr("{n} studies")),
             "idle": (self.tr("automatic"), ""),
             "deidentified": (self.tr("de-identified"), ""),
-            "late": (self.tr("finished later"), ""),
+            "late": (self.tr("completed later"), ""),
             "set": (self.tr("with a PIN"), ""),
         }.get(name, ("", ""))
         return one if value == 1 else many.format(n=value) if value or name == "left" else ""

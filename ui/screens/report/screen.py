@@ -61,7 +61,7 @@ class ReportScreen(QWidget):
         self.print_button = Button(theme, self.tr("Print…"), "plain")
         self.letter_button = Button(theme, self.tr("Letter to the doctor…"), "plain")
         self.home_button = Button(theme, self.tr("Home exercise sheet…"), "plain", hint="Ctrl+H")
-        self.send_button = Button(theme, self.tr("Send to practice system"), "plain")
+        self.send_button = Button(theme, self.tr("Send to clinic software"), "plain")
         self.can_send: Callable[[], bool] = lambda: False
         """Returns whether a practice system waits for the result of this patient."""
         self.back_button = Button(theme, self.tr("Back to the report"), "quiet")

@@ -57,7 +57,7 @@ def remark(line: SessionLine) -> str:
     if line.exclusion_reason:
         return tr("excluded: {reason}").format(reason=line.exclusion_reason)
     if line.is_damaged:
-        return tr("file missing") if line.is_missing else tr("not readable")
+        return tr("file missing") if line.is_missing else tr("cannot be read")
     return ""
 
 
@@ -204,7 +204,7 @@ def _cell_boxes(box: QRectF, theme: Theme, *, has_remark: bool) -> list[QRectF]:
 
 def header_columns() -> list[str]:
     """Return the headings of the columns."""
-    return [tr("Date"), tr("Exercise"), tr("Value"), tr("Analysed"), tr("Remark")]
+    return [tr("Date"), tr("Exercise"), tr("Value"), tr("Analysed"), tr("Status")]
 
 
 def place_headings(width: float, theme: Theme, _last_px: float) -> list[tuple[float, float]]:

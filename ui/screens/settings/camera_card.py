@@ -17,8 +17,8 @@ class CameraCard(Card):
         super().__init__(theme, 24)
         self._theme = theme
         words = self.tr(
-            "A printed board calibrates the camera. A printed card checks in 30 seconds whether it is still within "
-            "tolerance."
+            "A printed board calibrates the camera. A printed card checks in 30 seconds whether the camera is still "
+            "within tolerance."
         )
         self.add_heading(self.tr("Camera"), words)
         self._row = row_layout(gap=10)

@@ -24,9 +24,9 @@ class PracticeSystemCard(Card):
     def __init__(self, theme: Theme, requests: str, results: str) -> None:
         super().__init__(theme, 24)
         words = self.tr(
-            "The practice system writes a patient as a GDT 2.1 file into the first folder, and Carpus "
-            "opens the patient. “Send to practice system” next to a report writes its values and the PDF "
-            "into the second. These files contain real names."
+            "The clinic software writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the "
+            "patient. “Send to clinic software” next to a report writes its values and the PDF into the second "
+            "folder. These files contain real names."
         )
         self._folders = [requests, results]
         self._texts = [Text(theme, "", 14, wrap=True) for _ in self._folders]
@@ -34,8 +34,8 @@ class PracticeSystemCard(Card):
         self.clear_buttons = [Button(theme, self.tr("Turn off"), "quiet", height_px=40) for _ in self._folders]
         self.test_button = Button(theme, self.tr("Test the folders"), height_px=40)
         self.test_text = Text(theme, "", 14, SEMIBOLD, wrap=True)
-        self.add_heading(self.tr("Practice system (GDT)"), words)
-        titles = (self.tr("Patients from the practice system"), self.tr("Results for the practice system"))
+        self.add_heading(self.tr("Clinic software (GDT)"), words)
+        titles = (self.tr("Patients from the clinic software"), self.tr("Results for the clinic software"))
         for number, title in enumerate(titles):
             row = row_layout(self.folder_buttons[number], self.clear_buttons[number], STRETCH, gap=8)
             fill(self.body, 8, Text(theme, title, 14, SEMIBOLD, wrap=True), self._texts[number], row)

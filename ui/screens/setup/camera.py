@@ -46,7 +46,10 @@ class CameraScreen(QWidget):
                 (
                     "practice",
                     self.tr("Simulated camera"),
-                    self.tr("A simulated hand does the exercise, to try things out. It is marked as simulated."),
+                    self.tr(
+                        "A simulated hand does the exercise, so that you can try Carpus. The session is marked "
+                        "as simulated."
+                    ),
                 ),
             ],
         )

@@ -343,7 +343,7 @@ def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
         for one in proposed
     ]
     sessions = max(one.sessions for one in proposed)
-    head = tr("Suggested from the last session:") if sessions == 1 else tr("Suggested from the last {count} sessions:")
+    head = tr("Proposed from the last session:") if sessions == 1 else tr("Proposed from the last {count} sessions:")
     return f"{head.format(count=sessions)} {', '.join(parts)}."
 
 

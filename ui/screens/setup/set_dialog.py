@@ -120,7 +120,7 @@ class SetDialog(Dialog):
     def _build_layout(self) -> None:
         theme, body = self._theme, self.card.body
         words = self.tr(
-            "Exercises that run one after the other with the same markers. Each becomes a session of its own."
+            "Exercises that run one after the other with the same markers. Each is saved as its own session."
         )
         self.add_heading(self.tr("Exercise sets"), words)
         top = row_layout((LabelledField(theme, self.tr("Exercise set"), self.set_choice), 1), gap=16)
