@@ -289,8 +289,9 @@ def current_values(entries: Iterable[ManualValue]) -> list[ManualValue]:
     With them the TAM (TPM if passive) of each finger whose joints were all measured. ``entries`` are in the order in
     which they were entered.
     """
-    latest = [entry for entry in find_latest_entries(entries).values() if entry.trials]
-    return sorted((*latest, *_compute_totals(latest)), key=lambda entry: entry.day)
+    latest = {at: entry for at, entry in find_latest_entries(entries).items() if entry.trials}
+    latest |= {(total.key, total.day): total for total in _compute_totals(latest.values())}
+    return sorted(latest.values(), key=lambda entry: entry.day)
 
 
 def compute_total_deg(finger: int, angles_deg: Mapping[str, float]) -> float:

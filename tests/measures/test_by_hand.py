@@ -75,6 +75,7 @@ def test_current_values_hold_the_total_of_a_finger_measured_whole(flexion_deg: l
     (total,) = (one for one in current_values(entries) if one.measure == "TAM4")
     assert total.key == ("TAM4", "active", "left")
     assert total.value == pytest.approx(sum(flexion_deg) - max(-extension, 0.0)), "hyperextension counts as 0"
+    assert current_values(current_values(entries)) == current_values(entries), "counted once"
     taken_back = [*entries, replace(entries[4], trials=())]
     assert all(not one.measure.startswith("TAM") for one in current_values(taken_back)), "one end is not known"
 

@@ -67,7 +67,8 @@ class MeasureRow(QObject):
         super().__init__()
         self.measure = measure
         name = measure_name(measure)
-        self.name = Text(theme, name, 14, REGULAR, wrap=True)
+        direction = direction_words(measure) if measure.kind == "score" else ""
+        self.name = Text(theme, f"{name}, {direction}" if direction else name, 14, REGULAR, wrap=True)
         fields: list[tuple[Mode, int]] = [
             (way, number) for way in measure.modes for number in range(measure.trial_count)
         ]
@@ -88,7 +89,7 @@ class MeasureRow(QObject):
         self.answers_field.textChanged.connect(lambda _: self._count_answers())
         self.widgets: list[QWidget] = []
         self.side_text = Text(theme, "", 14, SEMIBOLD)
-        self.other_hand_text = Text(theme, "", 14, REGULAR, "text2", wrap=measure.kind == "score")
+        self.other_hand_text = Text(theme, "", 14, REGULAR, "text2")
         self.last_text = Text(theme, "", 14, REGULAR, "text2")
         self._carpus_measure: Measure | None = None
 
@@ -107,7 +108,9 @@ class MeasureRow(QObject):
             self.answers_field.setPlaceholderText(
                 words.format(count=facts.item_count, least=facts.min_answer, most=facts.max_answer)
             )
-            self.answers_field.setAccessibleName(self.tr("{name}: answers by number").format(name=self.name.text()))
+            self.answers_field.setAccessibleName(
+                self.tr("{name}: answers by number").format(name=measure_name(self.measure))
+            )
             self.answers_field.setToolTip(
                 self.tr("Enter the answers of the paper form in order, with - for no answer. Only the score is saved.")
             )
@@ -160,7 +163,7 @@ class MeasureRow(QObject):
             self.last_text.setText(" · ".join(filter(None, (self.tr("changed"), self.last_text.text()))))
         self.last_text.setToolTip(history)
         self.last_text.setAccessibleDescription(history)
-        self.other_hand_text.setText(direction_words(self.measure) if self.measure.kind == "score" else "")
+        self.other_hand_text.setText("")
         if self.measure.is_per_hand and self.measure.kind != "angle":
             other: Side = "left" if side == "right" else "right"
             found = value_on_day(values, self.keys(other)[0], day) or previous_value(values, self.keys(other)[0], day)
@@ -294,7 +297,7 @@ class ManualForm(QWidget):
             self._grid.setRowMinimumHeight(end, 12 if kind in kinds else 0)
             for head in heads:
                 head.setVisible(kind in kinds)
-        for one, following in itertools.pairwise(self._input_fields()):
+        for one, following in itertools.pairwise(self.input_fields()):
             QWidget.setTabOrder(one, following)
 
     def _make_row(self, name: str) -> MeasureRow:
@@ -306,7 +309,7 @@ class ManualForm(QWidget):
             field.textEdited.connect(lambda _: self.measure_edited.emit(name))
         return row
 
-    def _input_fields(self) -> list[QWidget]:
+    def input_fields(self) -> list[QWidget]:
         """Return all fields from top to bottom; the grid of the fingers is one of them."""
         fields: list[QWidget] = []
         rows = list(self.rows.values())
@@ -320,7 +323,7 @@ class ManualForm(QWidget):
 
     def _focus_next(self, field: QWidget) -> None:
         """Move the focus to the next field; after the last one it stays."""
-        fields = self._input_fields()
+        fields = self.input_fields()
         following = fields[min(fields.index(field) + 1, len(fields) - 1)]
         following.setFocus(Qt.FocusReason.TabFocusReason)
 
@@ -337,7 +340,7 @@ class ManualForm(QWidget):
         self.fingers.show_values(values, side, day, measured_cells)
 
     def initial_focus(self) -> QWidget:
-        return self._input_fields()[0]
+        return self.input_fields()[0]
 
     def list_errors(self) -> list[str]:
         return [words for entry in self._entries for words in entry.list_errors()]

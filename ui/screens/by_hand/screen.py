@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 
-from PySide6.QtCore import QDate, Qt, Signal
+from PySide6.QtCore import QDate, Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QBoxLayout, QDateEdit, QWidget
 
@@ -244,6 +245,9 @@ class ManualMeasurementsScreen(FittedWidget):
         ]
         fingers = [] if self.form.has_fingers else [(_FINGERS, group_names()["finger"])]
         self.measure_choice.set_choices([("", self.tr("Other measures…")), *fingers, *others])
+        following = [self.form.input_fields()[-1], self.measure_choice, self.close_button, self.save_button]
+        for one, after in itertools.pairwise(following):
+            QWidget.setTabOrder(one, after)
 
     def _show_basis(self) -> None:
         by = self.tr("Entered by {initials}.").format(initials=self.record.initials) if self.record.initials else ""
@@ -278,6 +282,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self._show_basis()
         self._show_course(name)
         field.setFocus(Qt.FocusReason.OtherFocusReason)
+        QTimer.singleShot(0, self, lambda: self._scroll.ensureWidgetVisible(field))  # laid out only then
 
     def _show_proposal(self) -> None:
         """Propose a Kapandji score where an opposition was recorded."""
@@ -348,7 +353,10 @@ class ManualMeasurementsScreen(FittedWidget):
             else self.tr("Some values of this or another hand or day are not saved yet.") if elsewhere
             else self.tr("Values are saved with initials and time. Later changes stay visible.")
         )  # fmt: skip
-        self.save_button.setEnabled(not problems and self.has_unsaved)
+        can_save = not problems and self.has_unsaved
+        if not can_save and self.save_button.hasFocus():
+            self.close_button.setFocus(Qt.FocusReason.OtherFocusReason)  # Qt would go on to the top bar
+        self.save_button.setEnabled(can_save)
 
     def _request_save(self) -> None:
         if not self.form.list_errors():
