@@ -63,8 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
             from carpus.app.session_commands import read_report_form
-            from carpus.ui.report.builders import build_progress_report
             from carpus.ui.report.pdf import write_report
+            from carpus.ui.report.progress_page import build_progress_report
 
             form, who = read_report_form(settings.data_folder), arguments.subject
             report = build_progress_report(figures, pseudonym=who, therapist=settings.report.therapist, form=form)

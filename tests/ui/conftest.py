@@ -45,7 +45,7 @@ def _figures_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every screen and page of a session works out its figures anew, as each is shown once; here the same few are shown
     hundreds of times."""
     screens = ("screens.review.reviewed_session", "screens.correct.screen")
-    for place in ("report.builders", *screens):
+    for place in ("report.session_page", *screens):
         monkeypatch.setattr(f"carpus.ui.{place}.compute_session_results", figures_once)
 
 

@@ -40,8 +40,8 @@ from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySerie
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.ui.kit.language import current_language
-from carpus.ui.report.builders import build_session_report
 from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
+from carpus.ui.report.session_page import build_session_report
 from carpus.ui.shell.view_models import (
     MAX_LISTED_PATIENTS,
     CalibrationAssessment,

@@ -37,10 +37,10 @@ from carpus.ui.kit.fonts import load_fonts
 from carpus.ui.kit.language import current_language, set_window_language
 from carpus.ui.kit.theme import Theme, ThemeName
 from carpus.ui.picture.movement_guide import GuideScene
-from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Report
-from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.progress_page import build_progress_report
+from carpus.ui.report.session_page import SessionReport, build_session_report
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
 from carpus.ui.screens.check_card.screen import CheckCardScreen

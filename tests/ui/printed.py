@@ -11,10 +11,9 @@ from typing import Any
 
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Session
-from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.report.pdf import write_report
-from carpus.ui.report.progress_page import ProgressReport
-from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.progress_page import ProgressReport, build_progress_report
+from carpus.ui.report.session_page import SessionReport, build_session_report
 
 
 def write_session_report(report: Session | SessionReport, path: Path, **context: Any) -> Path:

@@ -23,7 +23,8 @@ from carpus.core.results.manual_proposals import propose_kapandji
 from carpus.core.results.progress import compute_progress
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.builders import build_progress_report, build_session_report
+from carpus.ui.report.progress_page import build_progress_report
+from carpus.ui.report.session_page import build_session_report
 from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.screens.progress.flow import write_tables

@@ -38,10 +38,9 @@ from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import PatientCard
 from carpus.ui.words.finger_angles import find_finger_angle
 from carpus.ui.words.fingers import main_angles, main_result_words
-from carpus.ui.words.progress import value_pair
+from carpus.ui.words.progress import change_since_first, difference_words, value_pair, verdict_word
 from carpus.ui.words.ranges import repetition_words
 from carpus.ui.words.session import method_words
-from carpus.ui.words.verdicts import change_since_first, difference_words, verdict_word
 from tests.moments import with_moment
 from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes

@@ -25,13 +25,13 @@ from carpus.ui.kit.cells import TableColumn
 from carpus.ui.kit.language import use_language
 from carpus.ui.kit.layouts import STRETCH
 from carpus.ui.report import session_page
-from carpus.ui.report.builders import build_progress_report, build_session_report
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import column, legal_line, paged_table
 from carpus.ui.report.page import layout_pages as pages_of_report
 from carpus.ui.report.pdf import write_report
-from carpus.ui.report.session_page import SECTIONS, ReportSection, SessionReport
+from carpus.ui.report.progress_page import build_progress_report
+from carpus.ui.report.session_page import SECTIONS, ReportSection, SessionReport, build_session_report
 from carpus.ui.screens.report.panel import fill_sentence
 from carpus.ui.screens.report.screen import PAGE_SIZES, make_printer, print_pages
 from carpus.ui.screens.settings.report_card import LogoError, logo_png

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from carpus.ui.report.builders import build_progress_report, build_session_report
+from carpus.ui.report.progress_page import build_progress_report
+from carpus.ui.report.session_page import build_session_report
 from carpus.ui.screens.live.status_light import TrackingLag, lag_light
 from tests.ui.fakes import FakeFeed, FakeSessions
 

@@ -15,7 +15,7 @@ import pytest
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.report.builders import build_session_report
+from carpus.ui.report.session_page import build_session_report
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import (

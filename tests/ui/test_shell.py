@@ -16,7 +16,7 @@ from carpus.core.model.fault_text import MessageText
 from carpus.core.platform.version import __version__
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.builders import build_session_report
+from carpus.ui.report.session_page import build_session_report
 from carpus.ui.screens.report.screen import ReportScreen
 from carpus.ui.screens.settings.screen import SettingsScreen
 from carpus.ui.shell.flow import Navigator

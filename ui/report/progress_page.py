@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from PySide6.QtWidgets import QLayout, QVBoxLayout
 
 from carpus.core.measures.manual_measurements import ManualChange, ManualValue, MeasureKey
 from carpus.core.model.phrase import Phrase, phrase
+from carpus.core.platform.provenance import version_with_revision
 from carpus.core.records.values import Patient
-from carpus.core.results.progress import Progress
+from carpus.core.results.progress import Progress, compute_progress, find_other_hand
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import paint_progress_chart
@@ -33,16 +34,18 @@ from carpus.ui.report.page import (
     section_title,
     table,
 )
+from carpus.ui.words.fingers import progress_choices, progress_keys
 from carpus.ui.words.manual_values import change_words, day_words, find_changes, full_name, verdict_words
 from carpus.ui.words.progress import (
     change_line,
     comparability_lines,
     compared_words,
     comparison_name,
+    error_limit_words,
     headline,
     value_pair,
+    verdict_word,
 )
-from carpus.ui.words.verdicts import error_limit_words, verdict_word
 
 MIN_CHART_PT, MAX_CHART_PT = 180.0, 420.0
 MAX_EXCLUDED = 4
@@ -79,6 +82,34 @@ class ProgressReport:
     def pages(self) -> list[QVBoxLayout]:
         """Return the page, and all manual measurements if there are more than it has room for."""
         return [_first_page(self), *_manual_pages(self)]
+
+
+def build_progress_report(
+    sessions: Sequence[SessionResults],
+    *,
+    pseudonym: str = "",
+    therapist: str = "",
+    choice: str | None = None,
+    manual_values: Sequence[ManualValue] = (),
+    form: ReportForm | None = None,
+    language: str = "",
+    other_hand: SessionResults | None = None,
+) -> ProgressReport:
+    """Build the progress report of the newest session's exercise and hand.
+
+    ``choice`` is what is followed of a whole hand, as in :func:`progress_choices`, the first one by default.
+    ``manual_values`` are those of this hand and person. ``other_hand`` is used if the ``sessions`` have none of it.
+    """
+    newest = max(sessions, key=lambda results: results.when)
+    alike = [f for f in sessions if (f.exercise.id, f.side) == (newest.exercise.id, newest.side)]
+    kinds = progress_choices(newest)
+    followed = progress_keys(choice if choice is not None else kinds[0][0]) if kinds else ()
+    course = compute_progress(alike, other_hand or find_other_hand(sessions, newest), followed)
+    course = replace(course, manual_measurements=tuple(manual_values))
+    name = pseudonym or newest.subject_id or "–"
+    return ProgressReport(
+        course, name, therapist=therapist, made_by=version_with_revision(), form=form or ReportForm(), language=language
+    )
 
 
 def _first_page(report: ProgressReport) -> QVBoxLayout:

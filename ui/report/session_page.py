@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
 from typing import ClassVar
 
 from PySide6.QtWidgets import QLayout, QVBoxLayout, QWidget
 
-from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.measures.manual_measurements import ManualValue, session_values
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.types import Side
+from carpus.core.platform.provenance import parameter_section
 from carpus.core.records.values import Patient
-from carpus.core.results.motion_curves import MotionCurves
-from carpus.core.results.progress import compare_ranges
+from carpus.core.results.motion_curves import MotionCurves, compute_motion_curves
+from carpus.core.results.progress import (
+    compare_ranges,
+    compute_progress,
+    error_limits,
+    find_other_hand,
+    find_previous,
+    select_latest_versions,
+)
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
-from carpus.core.results.session_results import SessionResults
-from carpus.core.results.valid_data import JointCurves, WristCurves
+from carpus.core.results.session_results import SessionResults, compute_data_digest, compute_session_results
+from carpus.core.results.valid_data import JointCurves, WristCurves, joint_curves, wrist_curves
+from carpus.core.session.values import Session
 from carpus.ui.charts.session import FLEXION_KINDS, HandPlot, SessionPlot
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import ColorFill
@@ -131,6 +142,59 @@ class ReportSection:
     has_content: Callable[[SessionReport], bool] = lambda report: True
     make_pages: Callable[[SessionReport], Sequence[QVBoxLayout]] = lambda report: ()
     is_last: bool = False
+
+
+def build_session_report(
+    session: Session,
+    *,
+    choices: RepetitionChoices | None = None,
+    history: Sequence[SessionResults] = (),
+    pseudonym: str = "",
+    dominance: str = "unknown",
+    therapist: str = "",
+    manual_values: Sequence[ManualValue] = (),
+    comment: str = "",
+    form: ReportForm | None = None,
+    language: str = "",
+) -> SessionReport:
+    """Build the report of a session.
+
+    ``history`` are the results of the patient's other sessions, in any order. ``manual_values`` are all of the
+    patient; those of the session's day and hand are used. ``language`` is empty for the window's.
+    """
+    results = compute_session_results(session, choices, error_limits(history))
+    known = next((other for other in history if other.session_id == results.session_id), results)
+    older = all(one is not results for one in select_latest_versions((*history, results)))
+    results = replace(results, earlier_results=known.earlier_results, is_superseded=older)
+    earlier = [other for other in history if other.when < results.when]
+    alike = [other for other in earlier if (other.exercise.id, other.side) == (results.exercise.id, results.side)]
+    fair = [point.results for point in compute_progress(alike).points if point.is_comparable]
+    made_by, source = (
+        parameter_section(session.header.parameters, "provenance"),
+        parameter_section(session.header.parameters, "source"),
+    )
+    return SessionReport(
+        results=results,
+        curves=wrist_curves(session),
+        joints=joint_curves(session),
+        motion=compute_motion_curves(session),
+        markers=len(session.header.protocol.markers),
+        pseudonym=pseudonym or session.header.subject_id or "–",
+        session_number=sum(one.side == results.side for one in select_latest_versions(earlier)) + 1 if history else 0,
+        dominance=dominance,
+        therapist=therapist,
+        previous=find_previous(history, results),
+        first=fair[0] if fair else None,
+        other_hand=find_other_hand(history, results),
+        digest=compute_data_digest(session),
+        settings_digest=hashlib.sha256(session.header.parameters.encode()).hexdigest(),
+        revision=str(made_by.get("revision") or ""),
+        recording_digest=str(source.get("sha256") or ""),
+        manual_values=session_values(manual_values, results.side, results.when.date()),
+        comment=comment,
+        form=form or ReportForm(),
+        language=language,
+    )
 
 
 @dataclass(frozen=True, slots=True)

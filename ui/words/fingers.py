@@ -25,9 +25,9 @@ from carpus.ui.words.finger_angles import (
     format_spread,
 )
 from carpus.ui.words.marker_words import finger_name
+from carpus.ui.words.progress import reason_words, short_change_words
 from carpus.ui.words.ranges import LOWER_BOUND, is_deficit, mean_words
 from carpus.ui.words.task_measures import short_task_summary
-from carpus.ui.words.verdicts import reason_words, short_change_words
 
 COLUMNS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread", "tam")
 

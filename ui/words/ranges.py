@@ -21,7 +21,7 @@ from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.kit.theme import CURVE_TOKENS
 from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.words import terms
-from carpus.ui.words.verdicts import long_change_words, reason_words, short_change_words
+from carpus.ui.words.progress import long_change_words, reason_words, short_change_words
 
 _UNMEASURED: Mapping[str, Phrase] = {
     "hidden": phrase("not visible enough"),

@@ -22,10 +22,16 @@ from carpus.ui.kit.translate import tr
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, FingerAngle, find_finger_angle, format_spread
 from carpus.ui.words.fingers import is_thumb_exercise, main_kind, progress_choices, progress_keys
-from carpus.ui.words.progress import comparison_name, uncertainty_words
+from carpus.ui.words.progress import (
+    comparison_name,
+    difference_words,
+    error_limit_words,
+    reason_words,
+    short_change_words,
+    uncertainty_words,
+)
 from carpus.ui.words.progress import headline as progress_headline
 from carpus.ui.words.ranges import LOWER_BOUND, is_deficit, mean_head, mean_words, repetition_words
-from carpus.ui.words.verdicts import difference_words, error_limit_words, reason_words, short_change_words
 
 _VALUE = TableColumn(SEMIBOLD, scale=1.14)
 # Movement, both sessions, difference.

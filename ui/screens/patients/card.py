@@ -25,7 +25,7 @@ from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import MeasureWithChange, PatientCard
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle, progress_measure_name
-from carpus.ui.words.verdicts import change_since_first, duplicate_result_words
+from carpus.ui.words.progress import change_since_first, duplicate_result_words
 
 PHOTO_MIN_HEIGHT_PX, DIAGNOSIS_PX = 680, 100
 MIN_SUMMARY_PX = 92

@@ -11,7 +11,7 @@ from carpus.core.model.rounding import format_rounded
 from carpus.core.results.progress import Progress
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit.table_file import companion_path, save_table
-from carpus.ui.report.builders import build_progress_report
+from carpus.ui.report.progress_page import build_progress_report
 from carpus.ui.screens.progress.screen import ProgressScreen
 from carpus.ui.shell.flow import Flow, ScreenContext
 

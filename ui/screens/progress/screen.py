@@ -43,11 +43,12 @@ from carpus.ui.words.progress import (
     comparability_lines,
     compared_words,
     comparison_name,
+    error_limit_words,
     headline,
     uncertainty_words,
     value_pair,
+    verdict_word,
 )
-from carpus.ui.words.verdicts import error_limit_words, verdict_word
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.data_folder import DataFolder

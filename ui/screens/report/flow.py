@@ -15,12 +15,11 @@ from carpus.core.records import clinic_records, patients
 from carpus.core.records.clinic_records import read_form, save_form
 from carpus.core.records.values import Patient, read_or_default
 from carpus.core.results.report_form import ReportForm, default_paper
-from carpus.ui.report.builders import build_session_report
 from carpus.ui.report.home_page import HomeReport, build_home_progress
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Report
 from carpus.ui.report.progress_page import ProgressReport
-from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.session_page import SessionReport, build_session_report
 from carpus.ui.screens.report.dialogs import HomeDialog, LetterDialog
 from carpus.ui.screens.report.screen import ReportScreen
 from carpus.ui.screens.settings.report_card import ReportCard

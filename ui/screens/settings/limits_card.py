@@ -26,7 +26,7 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle
-from carpus.ui.words.verdicts import error_limit_words
+from carpus.ui.words.progress import error_limit_words
 
 
 def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:

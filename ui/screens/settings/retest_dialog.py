@@ -18,7 +18,7 @@ from carpus.ui.kit.text import REGULAR, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.screens.settings.limits_card import study_view
-from carpus.ui.words.verdicts import reason_words
+from carpus.ui.words.progress import reason_words
 
 HEIGHT_PX = 400
 MARGINS_PX = 320
