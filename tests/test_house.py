@@ -102,7 +102,7 @@ def test_readme_tells_the_two_commands_and_contributing_has_the_map() -> None:
     assert LEGAL_SENTENCE in " ".join(text.replace("> ", "").split())
     assert "make run" in text
     assert "make test" in text
-    assert "Hidden joints are estimated and marked as such" in " ".join(text.split())
+    assert "Occluded joints are predicted and marked as such" in " ".join(text.split())
     house = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     tools = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
     contracts = tools["importlinter"]["contracts"]
