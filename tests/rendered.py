@@ -31,7 +31,7 @@ WHOLE_HAND = RecordingSpec(
 )  # fmt: skip
 
 
-def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
+def read_truth(spec: RecordingSpec, folder: Path) -> Truth:
     """The true values of a recording made earlier from the same spec."""
     with h5py.File(folder / TRUTH_FILE, "r") as file:
         seen = np.asarray(file[VISIBLE_SHARE_PATH][()], dtype=np.float64)

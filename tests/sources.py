@@ -21,11 +21,11 @@ def modules(*parts: str) -> list[Path]:
 
 
 @cache
-def parsed(path: Path) -> ast.Module:
+def parse_file(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
 @cache
 def nodes(path: Path) -> tuple[ast.AST, ...]:
     """All that stands in a file, in no order that means anything."""
-    return tuple(ast.walk(parsed(path)))
+    return tuple(ast.walk(parse_file(path)))

@@ -45,7 +45,7 @@ class Placed:
     shift_m: FloatArray
 
 
-def texture_of(sheet: PrintedSheet) -> FloatArray:
+def render_texture(sheet: PrintedSheet) -> FloatArray:
     """White paper with the sheet's boxes and discs, in linear light."""
     size = (round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM))
     out = np.full((*size, 3), 0.86, dtype=np.float32)
@@ -128,7 +128,7 @@ def _rays(camera: Camera, step: int) -> FloatArray:
     return rays.reshape(len(v), len(u), 3).astype(np.float32)
 
 
-def held(
+def build_held_sheet(
     texture: FloatArray, centre_m: Sequence[float], tilt_deg: float, towards_deg: float, turn_deg: float
 ) -> Placed:
     """A sheet with its middle at a place of the camera, tilted by an angle about an axis in the picture, and turned."""
@@ -155,14 +155,18 @@ def poses(
         reach_x, reach_y = z * 0.6 - 0.12, z * 0.45 - 0.09
         tilt = 0.0 if k % 6 == 5 else float(rng.uniform(26.0, 44.0))
         centre = (right * max(reach_x, 0.0) * 1.6, down * max(reach_y, 0.0) * 1.6, z)
-        out.append(held(texture, centre, tilt, 90.0 * (k % 4) + float(rng.uniform(-15, 15)), float(rng.uniform(-8, 8))))
+        out.append(
+            build_held_sheet(
+                texture, centre, tilt, 90.0 * (k % 4) + float(rng.uniform(-15, 15)), float(rng.uniform(-8, 8))
+            )
+        )
     return out
 
 
 # The check card with its wedge before the simulator's camera.
 def card_scene(distance_m: float = 0.6, tilt_deg: float = 4.0, turn_deg: float = 7.0) -> list[Placed]:
     """The flat sheet and both faces of the wedge, nearly straight under the camera."""
-    card, wedge = texture_of(card_sheet("a4")), texture_of(wedge_sheet("a4"))
+    card, wedge = render_texture(card_sheet("a4")), render_texture(wedge_sheet("a4"))
     tilt = np.asarray(cv2.Rodrigues(np.array([math.radians(tilt_deg), 0.0, 0.0]))[0])
     turn = np.asarray(cv2.Rodrigues(np.array([0.0, 0.0, math.radians(turn_deg)]))[0])
     # The sheet's x to the right, y down, z into the table: as the camera looks.

@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from carpus.core.simulation import recording
 from tests.accuracy.carpus import run_on_pictures
-from tests.accuracy.jobs import Job, done
+from tests.accuracy.jobs import Job, run_job
 from tests.accuracy.runs import CARPUS, SIMPLEST, Run
 from tests.accuracy.scenarios import FAST, SLOW, WRIST
 from tests.accuracy.scores import score
@@ -63,7 +63,7 @@ def runs() -> dict[str, list[Run]]:
     for scenario in WRIST:
         if scenario.pool is not None:
             for seed in scenario.seeds(SEEDS)[:SEEDS]:
-                out[scenario.pool] += done(Job(scenario, seed, "blobs"), bound=False)
+                out[scenario.pool] += run_job(Job(scenario, seed, "blobs"), bound=False)
     return out
 
 
@@ -71,7 +71,7 @@ def runs() -> dict[str, list[Run]]:
 def test_accuracy_of_single_recording_has_not_fallen(name: str, pool: str) -> None:
     """The short form of what follows."""
     scenario = next(one for one in WRIST if one.name == name)
-    one, simplest = done(Job(scenario, scenario.seeds(1)[0], "blobs"), bound=False)
+    one, simplest = run_job(Job(scenario, scenario.seeds(1)[0], "blobs"), bound=False)
     carpus, back, plain = score([one], COLUMNS), score([one], COLUMNS, smoothed=True), score([simplest], COLUMNS)
     measured = MEASURED[pool]
     assert (carpus.rmse <= MARGIN_OF_ONE * np.array(measured.live_deg)).all(), carpus.rmse

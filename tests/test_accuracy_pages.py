@@ -19,7 +19,7 @@ def _reading(error_deg: float) -> Reading:
 
 
 def test_whole_run_has_a_place_for_every_table() -> None:
-    placed = [name for page in pages.PAGES for name in pages.tables_in(page.read_text(encoding="utf-8"))]
+    placed = [name for page in pages.PAGES for name in pages.find_tables(page.read_text(encoding="utf-8"))]
     assert len(placed) - placed.count("made") == len(set(placed)) - 1, "each table but the origin stands once"
     wrists = {name for name in accuracy.AT_ONCE if name in accuracy.WRIST_ROWS}
     hands = {name for name in accuracy.AT_ONCE if name in accuracy.HAND_ROWS}
@@ -30,9 +30,11 @@ def test_whole_run_has_a_place_for_every_table() -> None:
 
 def test_tables_are_put_between_the_marks_of_their_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     page, printed = tmp_path / "page.md", tmp_path / "printed"
-    page.write_text(f"# A\n\n{pages.marked('one', '| old |')}\n\nb\n\n{pages.marked('two', '| kept |')}\n", "utf-8")
+    page.write_text(
+        f"# A\n\n{pages.mark_table('one', '| old |')}\n\nb\n\n{pages.mark_table('two', '| kept |')}\n", "utf-8"
+    )
     new = r"| new | 50 \1 % |"
-    printed.write_text(f"noise\n{pages.marked('one', new)}\n", "utf-8")
+    printed.write_text(f"noise\n{pages.mark_table('one', new)}\n", "utf-8")
     monkeypatch.setattr(pages, "PAGES", (page,))
     assert pages.main([str(printed)]) == 0
     text = page.read_text("utf-8")
@@ -40,7 +42,7 @@ def test_tables_are_put_between_the_marks_of_their_name(tmp_path: Path, monkeypa
     assert "| kept |" in text
     assert "old" not in text
     assert "noise" not in text
-    printed.write_text(pages.marked("three", "| x |"), "utf-8")
+    printed.write_text(pages.mark_table("three", "| x |"), "utf-8")
     assert pages.main([str(printed)]) == 1
     assert page.read_text("utf-8") == text
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
-from tests.sources import ROOT, SOURCES, parsed
+from tests.sources import ROOT, SOURCES, parse_file
 
 SHAPING = ("model/hand", "detection", "calibration", "tracking", "tracking/*")
 """Packages of core between the frames and the stored angles; not the folders in them, which measure the camera."""
@@ -61,7 +61,7 @@ NO_CHOICE = {
 
 def shaping_numbers(path: Path) -> set[str]:
     """Names that a module gives to numbers without a reason: any with a point, and whole ones that stand alone."""
-    found, body, lines = set(), parsed(path).body, path.read_text(encoding="utf-8").splitlines()
+    found, body, lines = set(), parse_file(path).body, path.read_text(encoding="utf-8").splitlines()
     for node, beneath in zip(body, [*body[1:], None], strict=True):
         has_comment = "  # " in lines[node.end_lineno - 1] or lines[node.lineno - 2].startswith("# ")
         if has_comment or (isinstance(beneath, ast.Expr) and isinstance(beneath.value, ast.Constant)):

@@ -11,7 +11,7 @@ from functools import cache
 
 import pytest
 
-from tests.sources import ROOT, SOURCES, modules, nodes, parsed
+from tests.sources import ROOT, SOURCES, modules, nodes, parse_file
 
 pytestmark = SOURCES
 
@@ -41,7 +41,7 @@ def defined() -> frozenset[str]:
     names: set[str] = set()
     for path in (*modules(*PARTS), *(ROOT / "carpus").glob("*.py")):
         names.add(path.stem)
-        names |= {f"{path.stem}.{name}" for name in _within(parsed(path), names)}
+        names |= {f"{path.stem}.{name}" for name in _within(parse_file(path), names)}
     return frozenset(names)
 
 

@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.model import so3
 from carpus.core.model.types import FloatArray
-from tests.compiled.oracle.palm import right_jacobian
 
 NO_LIMIT = settings(deadline=None, max_examples=150)
 
@@ -101,12 +100,3 @@ def test_nearest_rotation_of_a_mirror_is_no_mirror() -> None:
     mirror[2, 2] = -0.4
     found = so3.project_to_rotation(mirror)
     assert np.allclose(found, np.eye(3), atol=1e-12)
-
-
-@NO_LIMIT
-@given(unit_axes, st.one_of(st.just(0.0), small_angles, st.floats(0.0, 3.0)), unit_axes)
-def test_right_jacobian_against_finite_differences(axis: FloatArray, angle: float, direction: FloatArray) -> None:
-    turn, step = axis * angle, 1e-5
-    here = so3.exp(turn)
-    ahead, back = (so3.log(here.T @ so3.exp(turn + sign * step * direction)) for sign in (1.0, -1.0))
-    assert np.allclose(right_jacobian(turn) @ direction, (ahead - back) / (2.0 * step), rtol=0.0, atol=1e-8)

@@ -16,7 +16,7 @@ from carpus.core.results.session_summary import _calibration_lines, range_lines,
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import stack_states
 from tests.moments import with_moment
-from tests.session.samples import begun, make_frame, make_header, time_of
+from tests.session.samples import begin_session, compute_time, make_frame, make_header
 from tests.ui import fakes
 
 
@@ -28,7 +28,7 @@ def write(path: Path) -> Path:
     """Six frames: 3 tracked with known angles, 2 predicted and 1 lost with larger ones that must not count."""
     angles_deg = [(0, 10, -5), (0, -20, 5), (1, 42, 0), (9, 90, 90), (-9, -90, -90), (0, 0, 0)]
     status = [TrackStatus.TRACKED] * 3 + [TrackStatus.PREDICTED] * 2 + [TrackStatus.LOST]
-    session = begun(path)
+    session = begin_session(path)
     for row in range(6):
         frame = dataclasses.replace(
             with_moment(make_frame(row), angles_rad=np.radians(angles_deg[row])),
@@ -36,8 +36,8 @@ def write(path: Path) -> Path:
             dropped_before=2 * (row == 3),
         )
         session.append(frame)
-    session.add_event(time_of(1), "note", "x")
-    session.add_event(time_of(2), "note", "y")
+    session.add_event(compute_time(1), "note", "x")
+    session.add_event(compute_time(2), "note", "y")
     session.write_motion(stack_states([make_frame(row) for row in range(6)]))
     session.close()
     return path
@@ -83,7 +83,7 @@ def test_session_summary_ranges_equal_the_report(exercise: str) -> None:
 def test_summary_gives_each_joint_its_visible_range(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     hidden = HAND21.markers.index("DIP4")
-    with begun(path, make_header(HAND21)) as session:
+    with begin_session(path, make_header(HAND21)) as session:
         for row in range(8):
             measured = np.full((21, 2), 100.0)
             measured[hidden] = np.nan

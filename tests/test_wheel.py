@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.session.test_golden import unpacked
+from tests.session.test_golden import unpack_golden
 
 ROOT = Path(__file__).parents[1]
 PARTS = ("app", "core", "ui", "resources")
@@ -128,7 +128,7 @@ def test_installed_program_runs_where_folders_and_files_are_called_as_its_parts_
     asked = [sys.executable, "-P", "-c", f"import sys; sys.path[:0] = [{str(installed)!r}]; {where}"]
     found = subprocess.run(asked, cwd=mistakable, check=True, capture_output=True, text=True).stdout.split()
     assert [Path(path).is_relative_to(installed) for path in found] == [True, True]
-    session = unpacked("v2-wrist6.h5", mistakable)
+    session = unpack_golden("v2-wrist6.h5", mistakable)
     assert "\nFrames       12 " in carpus(installed, mistakable, "info", session.name)
 
 

@@ -50,9 +50,9 @@ from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, sample_cli
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import write_truth
 from tests.accuracy import readings_table, second
-from tests.accuracy.carpus import measured_hand
+from tests.accuracy.carpus import measure_hand
 from tests.accuracy.hand21 import JOINT_GROUPS
-from tests.accuracy.pages import ruled
+from tests.accuracy.pages import rule_table
 from tests.simulation.measurements import measurement_sequence
 
 ROOT = Path(__file__).parents[1]
@@ -110,7 +110,7 @@ def write_measured_session(spec: RecordingSpec, exercise: str, subject: str, fol
     """Track simulated measurements of the markers, without images, into a session beside its truth."""
     sequence, settings = measurement_sequence(spec), TrackSettings()
     truth = sequence.truth
-    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
+    hand, neutral_ends_s = measure_hand(sequence, CalibrationSettings())
     calibration = hand.calibration
     if calibration is None:
         raise CalibrationImpossible()
@@ -242,7 +242,7 @@ def write_document(options: argparse.Namespace, found: Sequence[Found], judged: 
 
     def table(columns: str, name: str) -> str:
         rows = [row for one in found for row in getattr(one, name)]
-        return ruled([columns.split(" | "), *rows]) if rows else "None was asked for."
+        return rule_table([columns.split(" | "), *rows]) if rows else "None was asked for."
 
     joints = [one.joints for one in found if one.joints]
     joint_columns = ("exercise", *WRIST_ANGLES, *GROUPS)
@@ -282,7 +282,7 @@ error of its own and the same clock. Limits of agreement: Bland and Altman (2007
 
 Root-mean-square difference in degrees with 21 markers, joints that are occluded included:
 
-{ruled([joint_columns, *joints]) if joints else "None was asked for."}
+{rule_table([joint_columns, *joints]) if joints else "None was asked for."}
 
 ## The same from images
 

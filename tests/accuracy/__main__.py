@@ -15,13 +15,13 @@ from typing import TypeVar
 from carpus.core.platform.provenance import source_revision
 from tests.accuracy import badly, hand21_table, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
-from tests.accuracy.jobs import all_runs, jobs_for
-from tests.accuracy.pages import marked, ruled
+from tests.accuracy.jobs import all_runs, make_jobs
+from tests.accuracy.pages import mark_table, rule_table
 from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.runs import Run
 from tests.accuracy.scenarios import GROUPS, Scenario
 from tests.accuracy.soft import SENSOR_HAND, SENSOR_WRIST, SOFT_HAND, SOFT_WRIST
-from tests.accuracy.table import markdown, read_rows, rows_of
+from tests.accuracy.table import collect_rows, markdown, read_rows
 from tests.accuracy.targets import verdicts
 
 _Row = TypeVar("_Row", Scenario, HandScenario)
@@ -71,15 +71,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         kept = map(str, hand21_table.hand_verdicts(hands, hand))
         print("", *_hand_tables(hands, hand), *kept, sep="\n", flush=True)
     if options.group in ("all", "badly") and pictures and not options.only:
-        print("", marked("badly", badly.report(pictures)), sep="\n", flush=True)
+        print("", mark_table("badly", badly.report(pictures)), sep="\n", flush=True)
     if judged:
         told, some = second.report(judged, pictures, options.processes)
         read += some
         print("", told, sep="\n")
     if options.group == "all" and pictures and not options.only:
         for name, rows in _patient_tables(read):
-            print("", marked(name, ruled(rows)), sep="\n")
-        print("", marked("made", _made(seeds, pictures)), sep="\n")
+            print("", mark_table(name, rule_table(rows)), sep="\n")
+        print("", mark_table("made", _made(seeds, pictures)), sep="\n")
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0
 
@@ -94,23 +94,23 @@ def _wrist_report(
     scenarios: Sequence[Scenario], seeds: int, pictures: int, processes: int
 ) -> tuple[str, list[ReadRow]]:
     """Run these rows and tell; also what is read off them."""
-    runs = all_runs(jobs_for(scenarios, seeds, pictures), processes)
+    runs = all_runs(make_jobs(scenarios, seeds, pictures), processes)
     lines = list(_wrist_tables(runs, scenarios))
     promised = [row for row in scenarios if row not in (*SOFT_WRIST, *SENSOR_WRIST)]
     names = {row.name for row in promised}
     kept = [run for run in runs if run.scenario in names]
     lines += ["", "Synthetic: simulated hands before a simulated camera. What was promised:"] if kept else []
     lines += map(str, verdicts(kept, promised))
-    return "\n".join(lines), read_rows(list(rows_of(runs, scenarios)))
+    return "\n".join(lines), read_rows(list(collect_rows(runs, scenarios)))
 
 
 def _wrist_tables(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterator[str]:
     """The two tables of every group of rows."""
     for group, every in WRIST_ROWS.items():
         some = [row for row in scenarios if row in every]
-        if rows := list(rows_of(runs, some)):
-            yield from (marked(group, markdown(rows)), "")
-            yield from (marked(f"{group} read", readings_table.markdown(read_rows(rows))), "")
+        if rows := list(collect_rows(runs, some)):
+            yield from (mark_table(group, markdown(rows)), "")
+            yield from (mark_table(f"{group} read", readings_table.markdown(read_rows(rows))), "")
 
 
 def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> Iterator[str]:
@@ -119,8 +119,8 @@ def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> 
         name = "hand" if group == "hand" else f"{group} hand"
         some = [row for row in scenarios if row in every]
         if some:
-            yield from (marked(name, hand21_table.markdown(runs, some)), "")
-            yield from (marked(f"{name} read", readings_table.markdown(hand21_table.read_rows(runs, some))), "")
+            yield from (mark_table(name, hand21_table.markdown(runs, some)), "")
+            yield from (mark_table(f"{name} read", readings_table.markdown(hand21_table.read_rows(runs, some))), "")
 
 
 def _made(seeds: int, pictures: int) -> str:

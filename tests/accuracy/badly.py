@@ -19,11 +19,11 @@ from carpus.core.pipeline.track import TrackSettings, noise_from_json, track_rec
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from tests.accuracy.jobs import PICTURE_SECONDS
-from tests.accuracy.pages import ruled
+from tests.accuracy.pages import rule_table
 from tests.accuracy.runs import degrees_between
 from tests.accuracy.scenarios import WRIST
-from tests.accuracy.sequences import scored_frames
-from tests.rendered import truth_in
+from tests.accuracy.sequences import select_scored_frames
+from tests.rendered import read_truth
 
 ROWS = (
     "as it should be",
@@ -66,7 +66,7 @@ def run_one(row: str, seed: int) -> BadRun:
     scenario = next(one for one in WRIST if one.name == "mixed axes")
     spec = scenario.spec(seed, PICTURE_SECONDS)
     folder = render_cached(spec)
-    truth, verdicts = truth_in(spec, folder), list[Verdict]()
+    truth, verdicts = read_truth(spec, folder), list[Verdict]()
     clicks = clicks_as(row, read_clicks(folder / CLICKS_FILE), seed)
     with tempfile.TemporaryDirectory() as place, threadpool_limits(1):
         output = Path(place) / "session.h5"
@@ -83,7 +83,7 @@ def run_one(row: str, seed: int) -> BadRun:
         session = read_session(output)
     learnt = noise_from_json(session.header.parameters)
     assert learnt is not None
-    scored = scored_frames(truth, learnt.neutral_ends_s)
+    scored = select_scored_frames(truth, learnt.neutral_ends_s)
     error_deg = degrees_between(session.motion.angles_rad, truth.angles_rad)[scored]
     sd_deg = np.degrees(session.motion.angles_sd_rad)[scored]
     doubtful = float(np.mean(session.status[scored] != TrackStatus.TRACKED))
@@ -112,4 +112,4 @@ def report(recordings: int) -> str:
             inside = " / ".join(f"{100 * value:.0f}" for value in (np.abs(error) <= 2.0 * sd).mean(axis=0))
         doubtful = 100.0 * float(np.mean([run.doubtful for run in runs]))
         lines.append([row, f"{len(runs)}", f"{told} of {len(runs)}", kinds, rmse, inside, f"{doubtful:.0f}"])
-    return ruled(lines)
+    return rule_table(lines)

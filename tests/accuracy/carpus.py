@@ -30,15 +30,15 @@ from carpus.core.simulation.recording import CLICKS_FILE, render_cached, sample_
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from tests.accuracy.readings import reading_of
+from tests.accuracy.readings import compute_reading
 from tests.accuracy.runs import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import longest_untracked_s, markers_of, names_taken, scored_frames, true_names
-from tests.rendered import truth_in
+from tests.accuracy.sequences import label_blobs, longest_untracked_s, names_taken, select_scored_frames, true_names
+from tests.rendered import read_truth
 from tests.simulation.measurements import MeasurementSequence
 
 
-def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) -> tuple[MeasuredHand, float]:
+def measure_still_hand(sequence: MeasurementSequence, settings: CalibrationSettings) -> tuple[MeasuredHand, float]:
     """The hand as Carpus measures it on the still first frames, and when the last of those was."""
     truth = sequence.truth
     clicks = sample_clicks(truth)
@@ -48,18 +48,18 @@ def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) 
     return hand, float(truth.timestamp_s[capture.frame_count - 1])
 
 
-def learnt_tracker(sequence: MeasurementSequence, settings: TrackerSettings | None = None) -> tuple[Tracker, float]:
+def calibrate_tracker(sequence: MeasurementSequence, settings: TrackerSettings | None = None) -> tuple[Tracker, float]:
     """A tracker of the hand that has learnt from the still frames how much the measurements scatter, and when those
     end."""
     settings = settings or TrackerSettings()
-    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
+    hand, neutral_ends_s = measure_still_hand(sequence, CalibrationSettings())
     if hand.calibration is None:
         raise CalibrationImpossible(str(sequence.truth.spec.seed))
     learnt = noise_from_neutral(hand.noise, neutral_ends_s, settings)
     return Tracker(hand.calibration, sequence.truth.camera, learnt.adapt_settings(settings)), neutral_ends_s
 
 
-def stepped(
+def step_tracker(
     tracker: HandTracker, sequence: MeasurementSequence, neutral_ends_s: float
 ) -> tuple[list[TrackedFrame], float]:
     """The frames of measurements, tracked as :func:`core.pipeline.track.track_recording` does those of pictures, and
@@ -83,7 +83,7 @@ class Measured:
     neutral_ends_s: float
 
 
-def measured_session(folder: Path, settings: TrackSettings | None = None) -> Measured:
+def measure_session(folder: Path, settings: TrackSettings | None = None) -> Measured:
     """Track a rendered recording."""
     source, clicks = TumFolder(folder), read_clicks(folder / CLICKS_FILE)
     with tempfile.TemporaryDirectory() as place:
@@ -96,20 +96,20 @@ def measured_session(folder: Path, settings: TrackSettings | None = None) -> Mea
     return Measured(session, tuple(table.get_frame(i) for i in range(count)), learnt.neutral_ends_s)
 
 
-def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
+def detect_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
     """The blobs that were found in a simulated recording, named by the truth."""
-    labels = (markers_of(b, truth.marker_px[i], truth.visible_share[i]) for i, b in enumerate(measured.blobs))
+    labels = (label_blobs(b, truth.marker_px[i], truth.visible_share[i]) for i, b in enumerate(measured.blobs))
     return MeasurementSequence(truth, measured.blobs, tuple(labels))
 
 
 def run_on_blobs(scenario: Scenario, sequence: MeasurementSequence) -> tuple[Run, float]:
     """Track and smooth measurements; also when the neutral pose ends: only frames after it are scored."""
-    tracker, neutral_ends_s = learnt_tracker(sequence)
-    frames, _ = stepped(tracker, sequence, neutral_ends_s)
+    tracker, neutral_ends_s = calibrate_tracker(sequence)
+    frames, _ = step_tracker(tracker, sequence, neutral_ends_s)
     status = np.array([frame.status for frame in frames])
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     motions = stack_states(frames), stack_states(tracker.smooth())
-    return _scored(scenario, "blobs", sequence, neutral_ends_s, *motions, measured_px, status), neutral_ends_s
+    return _score_run(scenario, "blobs", sequence, neutral_ends_s, *motions, measured_px, status), neutral_ends_s
 
 
 def run_on_pictures(scenario: Scenario, seed: int, seconds: float) -> tuple[Run, MeasurementSequence, float, Path]:
@@ -119,17 +119,17 @@ def run_on_pictures(scenario: Scenario, seed: int, seconds: float) -> tuple[Run,
     """
     spec = scenario.spec(seed, seconds)
     folder = render_cached(spec)
-    found = measured_session(folder)
-    sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
+    found = measure_session(folder)
+    sequence, session = detect_sequence(read_truth(spec, folder), found), found.session
     assert session.smoothed is not None
-    run = _scored(
+    run = _score_run(
         scenario, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed,
         session.markers.measured_px, session.status.astype(np.int64),
     )  # fmt: skip
     return run, sequence, found.neutral_ends_s, folder
 
 
-def _scored(
+def _score_run(
     scenario: Scenario,
     mode: Mode,
     sequence: MeasurementSequence,
@@ -140,7 +140,7 @@ def _scored(
     status: NDArray[np.int64],
 ) -> Run:
     truth = sequence.truth
-    scored = scored_frames(truth, begin_s)
+    scored = select_scored_frames(truth, begin_s)
     names = names_taken(measured_px, sequence.detections, sequence.marker, scored)
     causal, smoothed = (
         Estimate(degrees_between(one.angles_rad, truth.angles_rad)[scored], np.degrees(one.angles_sd_rad)[scored])
@@ -158,7 +158,7 @@ def _scored(
         int(names.wrong.sum()),
         longest_s(names.wrong, truth.timestamp_s[scored]),
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
-        reading_of(
+        compute_reading(
             truth, scored, truth.angles_rad, causal.error_deg, causal.sd_deg, unused=names.missed, shown=names.shown
         ),
     )

@@ -17,11 +17,11 @@ from carpus.core.simulation.recording import render_cached
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
-from tests.accuracy.carpus import detected_sequence, learnt_tracker, measured_session, stepped
-from tests.accuracy.readings import Reading, reading_of
+from tests.accuracy.carpus import calibrate_tracker, detect_sequence, measure_session, step_tracker
+from tests.accuracy.readings import Reading, compute_reading
 from tests.accuracy.runs import Mode, degrees_between, longest_s
-from tests.accuracy.sequences import names_taken, scored_frames, true_names
-from tests.rendered import truth_in
+from tests.accuracy.sequences import names_taken, select_scored_frames, true_names
+from tests.rendered import read_truth
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 REPORT_SEEDS = 2_000_000
@@ -136,7 +136,7 @@ def with_end_joints(joints: FloatArray) -> FloatArray:
     return np.concatenate((joints[:, :5], whole.reshape(-1, 16)), axis=1)
 
 
-def seen_joints(present: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def find_seen_joints(present: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Whether the disc at each of the 21 joints and the next one past it are there, from ``present`` (N, 21 discs)."""
     at = np.array([HAND21.markers.index(name.split("_")[0]) for name in ANGLES])
     return np.asarray(present[:, at] & present[:, at + 1])
@@ -155,28 +155,28 @@ def clickable_sequence(spec: RecordingSpec) -> MeasurementSequence:
 def run_on_blobs(row: HandScenario, spec: RecordingSpec) -> HandRun:
     """Track simulated measurements."""
     sequence = clickable_sequence(spec)
-    tracker, neutral_ends_s = learnt_tracker(sequence, row.tracker)
-    frames, _ = stepped(tracker, sequence, neutral_ends_s)
+    tracker, neutral_ends_s = calibrate_tracker(sequence, row.tracker)
+    frames, _ = step_tracker(tracker, sequence, neutral_ends_s)
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     disc_m = np.array([frame.marker_position_cam_m for frame in frames])
     status = np.array([frame.status for frame in frames])
     motions = stack_states(frames), stack_states(tracker.smooth())
-    return _scored(row, "blobs", sequence, neutral_ends_s, *motions, measured_px, disc_m, status)
+    return _score_run(row, "blobs", sequence, neutral_ends_s, *motions, measured_px, disc_m, status)
 
 
 def run_on_pictures(row: HandScenario, spec: RecordingSpec) -> HandRun:
     """Track a rendered recording through the whole of Carpus, from folder to session file."""
     folder = render_cached(spec)
-    found = measured_session(folder, TrackSettings(tracker=row.tracker))
-    sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
+    found = measure_session(folder, TrackSettings(tracker=row.tracker))
+    sequence, session = detect_sequence(read_truth(spec, folder), found), found.session
     assert session.smoothed is not None
-    return _scored(
+    return _score_run(
         row, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed, session.markers.measured_px,
         session.markers.position_cam_m, session.status.astype(np.int64),
     )  # fmt: skip
 
 
-def _scored(
+def _score_run(
     row: HandScenario,
     mode: Mode,
     sequence: MeasurementSequence,
@@ -188,7 +188,7 @@ def _scored(
     status: NDArray[np.int64],
 ) -> HandRun:
     truth = sequence.truth
-    kept = scored_frames(truth, begin_s)
+    kept = select_scored_frames(truth, begin_s)
     names = names_taken(measured_px, sequence.detections, sequence.marker, kept)
     off_m = disc_m[kept] / depth_scale(truth.spec) - truth.marker_position_cam_m[kept]
     disc_mm = 1e3 * np.linalg.norm(off_m, axis=-1)[names.present]
@@ -199,7 +199,7 @@ def _scored(
     joint_sd_deg, smoothed_sd_deg = (np.degrees(with_end_joints(one.joint_angles_sd_rad))[kept] for one in (live, back))
     wrist_deg = degrees_between(live.angles_rad, truth.angles_rad)[kept]
     wrist_sd_deg = np.degrees(live.angles_sd_rad)[kept]
-    seen, compared = seen_joints(names.present), readable(joint_true)[kept]
+    seen, compared = find_seen_joints(names.present), readable(joint_true)[kept]
     discs = {"unused": names.missed, "shown": names.shown}
     joints_seen_deg = np.where(seen & compared, joint_deg, np.nan)
     return HandRun(
@@ -220,8 +220,8 @@ def _scored(
         longest_s(names.wrong, truth.timestamp_s[kept]),
         names.missed,
         names.shown,
-        reading_of(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, **discs),
-        reading_of(truth, kept, joint_true, joints_seen_deg, joint_sd_deg, **discs),
+        compute_reading(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, **discs),
+        compute_reading(truth, kept, joint_true, joints_seen_deg, joint_sd_deg, **discs),
     )
 
 

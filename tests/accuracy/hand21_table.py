@@ -20,7 +20,7 @@ from tests.accuracy.hand21 import (
     run_on_pictures,
 )
 from tests.accuracy.jobs import side_by_side
-from tests.accuracy.pages import ruled
+from tests.accuracy.pages import rule_table
 from tests.accuracy.readings import mean, rms
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import Mode
@@ -158,7 +158,7 @@ def markdown(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
         cells.append(" / ".join(f"{v:.1f}" for v in wrist_rmse(mine)))
         cells.append(" / ".join(f"{v:.1f}" for v in disc_mm(mine)))
         lines.append(cells)
-    return ruled(lines)
+    return rule_table(lines)
 
 
 def _hidden(values: FloatArray, run: HandRun) -> FloatArray:

@@ -22,15 +22,15 @@ from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import single_moving_mode
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import LEAST_DISCS, measured_and_errors, scored_frames
+from tests.accuracy.sequences import LEAST_DISCS, select_scored_frames, split_measurements
 from tests.simulation.measurements import MeasurementSequence
 from tests.tracking.hands import RIGID
 
 
-def informed_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: float, mode: Mode) -> Run:
+def run_informed(scenario: Scenario, sequence: MeasurementSequence, begin_s: float, mode: Mode) -> Run:
     """Filter a wrist sequence; frames after ``begin_s`` are scored, as those of Carpus are."""
     settings, truth = TrackerSettings(), sequence.truth
-    measured, error = measured_and_errors(sequence)
+    measured, error = split_measurements(sequence)
     measured = measured - np.nanmean(error, axis=0)
     variance = np.nanmean(np.nanvar(error, axis=0), axis=0)
     view = PalmView(
@@ -61,7 +61,7 @@ def informed_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
             )
             mixture = ModeMixture(mixture.mean * kept, mixture.covariance * np.outer(kept, kept), mixture.probability)
         estimates.append(estimate)
-    scored = scored_frames(truth, begin_s)
+    scored = select_scored_frames(truth, begin_s)
     true_rad = truth.angles_rad[scored]
     return Run(
         scenario.name,

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
-from tests.accuracy.informed import informed_run
+from tests.accuracy.informed import run_informed
 from tests.accuracy.runs import Mode, Run
 from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
 from tests.accuracy.simplest import simplest_run
@@ -31,7 +31,7 @@ class Job:
     mode: Mode
 
 
-def done(job: Job, *, bound: bool = True) -> list[Run]:
+def run_job(job: Job, *, bound: bool = True) -> list[Run]:
     """Carpus, the simplest thing and, unless nobody asks for it, the ``bound`` on one recording."""
     bound = bound and job.scenario.has_bound
     with threadpool_limits(1):
@@ -44,10 +44,10 @@ def done(job: Job, *, bound: bool = True) -> list[Run]:
             simplest = simplest_run(job.scenario, sequence, begin_s, folder)
         if not bound:
             return [carpus, simplest]
-        return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
+        return [carpus, simplest, run_informed(job.scenario, sequence, begin_s, job.mode)]
 
 
-def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: int = REPORT_SEEDS) -> list[Job]:
+def make_jobs(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: int = REPORT_SEEDS) -> list[Job]:
     """``pictures`` rendered recordings of every row that wants them, these first: they take longest; of every other,
     and where no pictures are asked for of all, ``seeds`` simulated measurements. Seeds of a row from ``first`` on."""
     out = [
@@ -73,4 +73,4 @@ def side_by_side(work: Callable[[_Job], _Done], jobs: Sequence[_Job], processes:
 
 def all_runs(jobs: Sequence[Job], processes: int) -> list[Run]:
     """Runs of all jobs, in their order."""
-    return [run for runs in side_by_side(done, jobs, processes) for run in runs]
+    return [run for runs in side_by_side(run_job, jobs, processes) for run in runs]

@@ -16,18 +16,18 @@ PAGES = tuple(ROOT / page for page in ("README.md", "resources/accuracy.md", "re
 _MARKED = re.compile(r"<!-- table: (?P<name>[\w ]+) -->\n.*?<!-- end of table -->", re.DOTALL)
 
 
-def marked(name: str, table: str) -> str:
+def mark_table(name: str, table: str) -> str:
     """A table between the marks that say which it is."""
     return f"<!-- table: {name} -->\n\n{table}\n\n<!-- end of table -->"
 
 
-def ruled(rows: Sequence[Sequence[str]]) -> str:
+def rule_table(rows: Sequence[Sequence[str]]) -> str:
     """Rows as a Markdown table, the head first."""
     lines = [f"| {' | '.join(row)} |" for row in rows]
     return "\n".join([lines[0], "|---" * len(rows[0]) + "|", *lines[1:]])
 
 
-def tables_in(text: str) -> dict[str, str]:
+def find_tables(text: str) -> dict[str, str]:
     """The marked tables of a text, with their marks, by name."""
     return {found["name"]: found[0] for found in _MARKED.finditer(text)}
 
@@ -41,10 +41,10 @@ def main(arguments: Sequence[str]) -> int:
     if len(arguments) != 1:
         print("usage: python -m tests.accuracy.pages FILE", file=sys.stderr)
         return 2
-    tables, placed = tables_in(Path(arguments[0]).read_text(encoding="utf-8")), set[str]()
+    tables, placed = find_tables(Path(arguments[0]).read_text(encoding="utf-8")), set[str]()
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
-        placed |= tables_in(text).keys() & tables.keys()
+        placed |= find_tables(text).keys() & tables.keys()
         page.write_text(with_tables(text, tables), encoding="utf-8")
     print(f"in place: {', '.join(sorted(placed)) or 'none'}", file=sys.stderr)
     if left := sorted(tables.keys() - placed):

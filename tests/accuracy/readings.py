@@ -45,7 +45,7 @@ class Reading:
     shown: int
 
 
-def reading_of(
+def compute_reading(
     truth: Truth,
     frames: NDArray[np.bool_],
     true_rad: FloatArray,
@@ -59,12 +59,12 @@ def reading_of(
     frames alone."""
     time_s = truth.time_s[frames]
     near = np.abs(true_rad[frames] - true_rad[0]) < AT_NEUTRAL_RAD
-    return reading_in(
+    return compute_reading_of_frames(
         time_s, _moves_rad(truth, time_s), true_rad[frames], near, error_deg, sd_deg, unused=unused, shown=shown
     )
 
 
-def reading_in(
+def compute_reading_of_frames(
     time_s: FloatArray,
     moves_rad: FloatArray,
     true_rad: FloatArray,
@@ -81,7 +81,7 @@ def reading_in(
     known = near_neutral & np.isfinite(error)
     count = known.sum(axis=0)
     zero = np.where(count >= _LEAST_FRAMES, np.where(known, error, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan)
-    windows, ends = strokes_in(time_s, moves_rad)
+    windows, ends = find_strokes(time_s, moves_rad)
     true_deg = np.degrees(true_rad)
     ranges = [_range_error(true_deg[w], error[w]) for w in windows]
     at_end = [_middle(error[np.abs(time_s - end) <= _END_S]) for end in ends]
@@ -98,9 +98,9 @@ def reading_in(
     )
 
 
-def strokes_of(truth: Truth, time_s: FloatArray) -> tuple[list[slice], FloatArray]:
+def find_truth_strokes(truth: Truth, time_s: FloatArray) -> tuple[list[slice], FloatArray]:
     """Repetitions and ends of strokes at ``time_s`` (N,) of a simulated recording, as :func:`strokes_in`."""
-    return strokes_in(time_s, _moves_rad(truth, time_s))
+    return find_strokes(time_s, _moves_rad(truth, time_s))
 
 
 def _moves_rad(truth: Truth, time_s: FloatArray) -> FloatArray:
@@ -108,7 +108,7 @@ def _moves_rad(truth: Truth, time_s: FloatArray) -> FloatArray:
     return np.hstack((motion.wrist_angles_rad(time_s), motion.joint_angles_rad(time_s)))
 
 
-def strokes_in(time_s: FloatArray, moves_rad: FloatArray) -> tuple[list[slice], FloatArray]:
+def find_strokes(time_s: FloatArray, moves_rad: FloatArray) -> tuple[list[slice], FloatArray]:
     """Repetitions as slices of ``time_s`` (N,), and the times of the ends of their strokes: both of whatever moves
     furthest of ``moves_rad`` (N, K), wrist or finger, by the middle of its swing."""
     swing = np.ptp(moves_rad, axis=0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.accuracy.pages import ruled
+from tests.accuracy.pages import rule_table
 from tests.accuracy.readings import ReadFigures, Reading, read_figures, unused_share
 
 WRIST_COLUMNS: dict[str, tuple[int, ...]] = {"deviation": (0,), "flexion": (1,), "pro/sup": (2,)}
@@ -49,7 +49,7 @@ def markdown(rows: Sequence[ReadRow]) -> str:
         cells = [" / ".join(values) for values in zip(*map(_cells, found.values()), strict=True)]
         unused = f"{100 * unused_share(row.readings):.1f}"
         lines.append([row.name, str(len(row.readings)), " / ".join(found), *cells, unused])
-    return ruled(lines)
+    return rule_table(lines)
 
 
 _PATIENT_HEAD = (

@@ -64,29 +64,29 @@ WRIST = (
 """The rows of the wrist, every one with two false blobs a frame, one marker in ten hidden, one frame in 100 lost."""
 
 
-def _troubled(name: str, *, pictures: bool = False, **changes: Any) -> Scenario:
+def _add_trouble(name: str, *, pictures: bool = False, **changes: Any) -> Scenario:
     options = {"motion": "mixed", **{key: value for key, value in changes.items() if key not in USUAL_TROUBLE}}
     trouble = {**USUAL_TROUBLE, **{key: value for key, value in changes.items() if key in USUAL_TROUBLE}}
     return Scenario(name, options, _EXERCISE_HZ, trouble=trouble, pictures=pictures)
 
 
 TROUBLE = (
-    _troubled("no false blobs", false_blobs=0.0),
-    _troubled("3 false blobs", false_blobs=3.0),
-    _troubled("10 false blobs", false_blobs=10.0),
-    _troubled("nothing hidden", hidden_share=0.0),
-    _troubled("30 % hidden", hidden_share=0.3),
-    _troubled("object passes", object_passes=True, pictures=True),
-    _troubled("leaves and returns", leaves_picture=True, pictures=True),
-    _troubled("dim", light="dim", pictures=True),
-    _troubled("dark skin", skin_tone=5, pictures=True),
-    _troubled("child", hand_length_mm=135.0, pictures=True),
-    _troubled("left hand", hand="left"),
-    _troubled("clicks off by 5 px", click_error_px=5.0),
-    _troubled("depth scale 2 %", depth_scale_error=0.02),
-    _troubled("15 frames a second", fps=15.0),
-    _troubled("10 % dropped", dropped_share=0.1),
-    _troubled("blue sleeve", sleeve="blue", pictures=True),
+    _add_trouble("no false blobs", false_blobs=0.0),
+    _add_trouble("3 false blobs", false_blobs=3.0),
+    _add_trouble("10 false blobs", false_blobs=10.0),
+    _add_trouble("nothing hidden", hidden_share=0.0),
+    _add_trouble("30 % hidden", hidden_share=0.3),
+    _add_trouble("object passes", object_passes=True, pictures=True),
+    _add_trouble("leaves and returns", leaves_picture=True, pictures=True),
+    _add_trouble("dim", light="dim", pictures=True),
+    _add_trouble("dark skin", skin_tone=5, pictures=True),
+    _add_trouble("child", hand_length_mm=135.0, pictures=True),
+    _add_trouble("left hand", hand="left"),
+    _add_trouble("clicks off by 5 px", click_error_px=5.0),
+    _add_trouble("depth scale 2 %", depth_scale_error=0.02),
+    _add_trouble("15 frames a second", fps=15.0),
+    _add_trouble("10 % dropped", dropped_share=0.1),
+    _add_trouble("blue sleeve", sleeve="blue", pictures=True),
 )
 """The mixed exercise of the wrist under one trouble more, or less, at a time."""
 

@@ -15,16 +15,16 @@ from threadpoolctl import threadpool_limits
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.types import FloatArray
 from tests.accuracy import readings_table
-from tests.accuracy.carpus import measured_session
-from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, readable, seen_joints, with_end_joints
+from tests.accuracy.carpus import measure_session
+from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, find_seen_joints, readable, with_end_joints
 from tests.accuracy.jobs import side_by_side
-from tests.accuracy.pages import marked
-from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, reading_in
+from tests.accuracy.pages import mark_table
+from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, compute_reading_of_frames
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import degrees_between
-from tests.accuracy.sequences import enough_inside, markers_of, names_taken
-from tests.second_patient.motions import ROWS, Row, motion_of
-from tests.second_patient.recording import clear_px, kept_recording, take_of
+from tests.accuracy.sequences import enough_inside, label_blobs, names_taken
+from tests.second_patient.motions import ROWS, Row, make_motion
+from tests.second_patient.recording import cache_recording, clear_px, make_take
 
 SECOND_SEEDS = 9_000_000
 """Seeds of these rows start here, sides in turn."""
@@ -42,28 +42,28 @@ class SecondRun:
     joints: Reading | None
 
 
-def _tracked(job: tuple[Row, int]) -> SecondRun | str:
+def _track_job(job: tuple[Row, int]) -> SecondRun | str:
     """Track one recording of a row and compare it with its truth; what is in the way where that cannot be done."""
     row, seed = job
     try:
-        return _tracked_run(row, seed)
+        return _track_row(row, seed)
     except CarpusFault as fault:
         return f"second: {row.name}, seed {seed}: not tracked, {type(fault).__name__}: {fault}"
 
 
-def _tracked_run(row: Row, seed: int) -> SecondRun:
-    folder, truth = kept_recording(row, seed)
+def _track_row(row: Row, seed: int) -> SecondRun:
+    folder, truth = cache_recording(row, seed)
     with threadpool_limits(1):
-        found = measured_session(folder)
+        found = measure_session(folder)
     session = found.session
     pixel = np.array([truth.camera.distort(some) for some in truth.disc_pixel])
-    labels = [markers_of(some, pixel[i], truth.visible_share[i]) for i, some in enumerate(found.blobs)]
+    labels = [label_blobs(some, pixel[i], truth.visible_share[i]) for i, some in enumerate(found.blobs)]
     kept = truth.timestamp_s > found.neutral_ends_s
     kept &= enough_inside(pixel[:, list(truth.protocol.palm)], truth.camera)
     names = names_taken(session.markers.measured_px, found.blobs, labels, kept)
 
     time_s = (truth.timestamp_s - truth.timestamp_s[0])[kept]
-    posture = motion_of(row.motion, seed).at(time_s)
+    posture = make_motion(row.motion, seed).at(time_s)
     moves = np.hstack((posture.wrist, posture.fingers))
 
     def reading(true: FloatArray, found: FloatArray, sd: FloatArray, where: NDArray[np.bool_] | None = None) -> Reading:
@@ -71,13 +71,13 @@ def _tracked_run(row: Row, seed: int) -> SecondRun:
         near = (np.abs(true - true[0]) < AT_NEUTRAL_RAD)[kept]
         error = error if where is None else np.where(where, error, np.nan)
         discs = {"unused": names.missed, "shown": names.shown}
-        return reading_in(time_s, moves, true[kept], near, error, sd_deg, **discs)
+        return compute_reading_of_frames(time_s, moves, true[kept], near, error, sd_deg, **discs)
 
     motion = session.motion
     joints = None
     if truth.protocol.has_fingers:
         angles, sd = with_end_joints(motion.joint_angles_rad), with_end_joints(motion.joint_angles_sd_rad)
-        compared = seen_joints(names.present) & readable(truth.joint_angles_rad)[kept]
+        compared = find_seen_joints(names.present) & readable(truth.joint_angles_rad)[kept]
         joints = reading(truth.joint_angles_rad, angles, sd, compared)
     return SecondRun(
         row.name,
@@ -96,17 +96,17 @@ def report(
 ) -> tuple[str, list[ReadRow]]:
     """Run ``recordings`` of each of these rows, seeds from ``first`` on, and tell; also what is read off them."""
     jobs = [(row, _clickable_seed(row, first + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)]
-    done = side_by_side(_tracked, jobs, processes)
+    done = side_by_side(_track_job, jobs, processes)
     runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
     read = list(_read_rows(runs, rows))
-    return "\n".join([marked("second", readings_table.markdown(read)), *faults]), read
+    return "\n".join([mark_table("second", readings_table.markdown(read)), *faults]), read
 
 
 def _clickable_seed(row: Row, seed: int) -> int:
     """The seed, or the next of the same side whose discs stand apart in the first picture: others could not be told
     apart by a click, and a therapist would move the camera nearer."""
     tries = range(seed, seed + 1000 * _MOST_TRIES, 1000)
-    return next((one for one in tries if clear_px(take_of(row, one, seconds=0.1)) >= LEAST_CLEAR_PX), seed)
+    return next((one for one in tries if clear_px(make_take(row, one, seconds=0.1)) >= LEAST_CLEAR_PX), seed)
 
 
 def _read_rows(runs: Sequence[SecondRun], rows: Sequence[Row]) -> Iterator[ReadRow]:

@@ -29,7 +29,7 @@ def true_names(labels: NDArray[np.int64], markers: int) -> NDArray[np.int64]:
     return taken
 
 
-def markers_of(blobs: Detections, disc_px: FloatArray, visible_share: FloatArray) -> NDArray[np.int64]:
+def label_blobs(blobs: Detections, disc_px: FloatArray, visible_share: FloatArray) -> NDArray[np.int64]:
     """Marker of every blob (D,), -1 for none: the disc (M, 2) whose middle is nearest, each disc's nearest blob."""
     gap = np.linalg.norm(blobs.pixel[:, None] - disc_px[None], axis=-1)
     gap = np.where((gap < OWN_PX) & (visible_share > LEAST_SEEN), gap, np.inf)
@@ -48,7 +48,7 @@ def enough_inside(palm_px: FloatArray, camera: Camera) -> NDArray[np.bool_]:
     return np.asarray(inside.sum(axis=1) >= LEAST_DISCS)
 
 
-def scored_frames(truth: Truth, begin_s: float) -> NDArray[np.bool_]:
+def select_scored_frames(truth: Truth, begin_s: float) -> NDArray[np.bool_]:
     """Frames (N,) after ``begin_s`` in which something can be known."""
     palm_px = truth.marker_px[:, list(truth.spec.marker_protocol.palm)]
     return np.asarray((truth.timestamp_s > begin_s) & enough_inside(palm_px, truth.camera))
@@ -66,7 +66,7 @@ def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_
     return longest
 
 
-def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:
+def split_measurements(sequence: MeasurementSequence) -> tuple[FloatArray, FloatArray]:
     """Measured pixels and depths (N, M, 3) by true name, NaN where not seen, and their errors."""
     truth = sequence.truth
     true = np.concatenate((truth.marker_px, truth.marker_position_cam_m[..., 2:]), axis=-1)

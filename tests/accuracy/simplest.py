@@ -22,7 +22,7 @@ from carpus.core.model.types import FloatArray, Frame, TrackStatus
 from carpus.core.simulation.recording import sample_clicks
 from tests.accuracy.runs import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import OWN_PX, longest_untracked_s, scored_frames
+from tests.accuracy.sequences import OWN_PX, longest_untracked_s, select_scored_frames
 from tests.simulation.measurements import MeasurementSequence
 
 REACH_PX = 25.0
@@ -108,7 +108,7 @@ def simplest_run(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
     neutral = np.where(count > 0, np.nansum(still, axis=0) / np.maximum(count, 1), np.nan)
     known = np.isfinite(neutral).all()
     rotation = turns(neutral, points) if known else np.full((len(times), 3, 3), np.nan)
-    scored = scored_frames(truth, begin_s)
+    scored = select_scored_frames(truth, begin_s)
     error = degrees_between(angles_from_rotation(rotation, truth.spec.hand), truth.angles_rad)[scored]
     wrong = np.zeros(pixel.shape[:2], dtype=bool)
     for i, marker in np.argwhere(np.isfinite(pixel[..., 0])):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.model.types import FloatArray
-from tests.accuracy.pages import ruled
+from tests.accuracy.pages import rule_table
 from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, Mode, Run
 from tests.accuracy.scenarios import Scenario
@@ -33,7 +33,7 @@ class Row:
     runs: tuple[Run, ...]
 
 
-def rows_of(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterator[Row]:
+def collect_rows(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterator[Row]:
     """Every scenario by measurements, then the pools, then the same by pictures."""
     for mode in ("blobs", "pictures"):
         mine = [run for run in runs if run.mode == mode]
@@ -100,4 +100,4 @@ def markdown(rows: Sequence[Row]) -> str:
             f"{live.longest_wrong_s:.1f}", f"{live.longest_untracked_s:.1f}",
         ]  # fmt: skip
         lines.append(cells)
-    return ruled(lines)
+    return rule_table(lines)

@@ -28,15 +28,15 @@ from carpus.core.records.database import STORE_FILE
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
-from tests.records.samples import opened as opened_store
+from tests.records.samples import open_store as opened_store
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
-from tests.session.test_golden import unpacked
+from tests.session.test_golden import unpack_golden
 
 
-def stored(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> Path:
+def store_file(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     if not finished:
-        part = unpacked("v2-wrist6.h5.0123abcd.part", path.parent)
+        part = unpack_golden("v2-wrist6.h5.0123abcd.part", path.parent)
         os.utime(part, (0, 0))
         return part.rename(part.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.part"))
     header = make_header(session_id=uuid.uuid4(), subject=subject)
@@ -47,7 +47,7 @@ def stored(path: Path, subject: str = "Linden 42", *, finished: bool = True) -> 
     return path
 
 
-def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
+def start_program(folder: Path) -> tuple[list[str], list[CarpusFault]]:
     """The program's start on a folder: patients, and what it tells of its files."""
     with closing(DataFolder(folder)) as library:
         faults = [one for one in recover_sessions(library)[1] if not isinstance(one, PatientListMissing)]
@@ -67,15 +67,15 @@ BAD: dict[str, Callable[[h5py.File], object]] = {
 def test_bad_files_do_not_keep_the_program_from_starting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(new_sessions, "MAX_LISTED_FILES", 100)
     sessions = tmp_path / "sessions"
-    stored(sessions / "Heron-17" / "good.h5", "Heron 17")
+    store_file(sessions / "Heron-17" / "good.h5", "Heron 17")
     bad: dict[Path, str] = {}
     for change, finished in product(BAD, (True, False)):
-        path = stored(sessions / "Linden-42" / f"{change} {finished}.h5", finished=finished)
+        path = store_file(sessions / "Linden-42" / f"{change} {finished}.h5", finished=finished)
         bad[path] = change
         with h5py.File(path, "r+") as file:
             BAD[change](file)
         os.utime(path, (0, 0))
-    patients, faults = started(tmp_path)
+    patients, faults = start_program(tmp_path)
     assert "Heron 17" in patients
     assert all(isinstance(fault, SessionUnreadable) for fault in faults)
     named = [Path(fault.subject).name for fault in faults]
@@ -83,23 +83,23 @@ def test_bad_files_do_not_keep_the_program_from_starting(tmp_path: Path, monkeyp
     for path, change in bad.items():
         assert path.exists() or path.with_name(f"{path.name.partition('.h5')[0]}.h5").exists()
         assert change not in ("group", "scalar") or named.count(path.name) == 1
-    assert started(tmp_path) == (patients, []), "named once, and not opened again"
+    assert start_program(tmp_path) == (patients, []), "named once, and not opened again"
 
 
 def test_unchanged_files_are_not_opened_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for number in range(5):
-        stored(tmp_path / "sessions" / f"{number}.h5")
-    started(tmp_path)
+        store_file(tmp_path / "sessions" / f"{number}.h5")
+    start_program(tmp_path)
     opened: list[Path] = []
     real = session_list.read_outline
     monkeypatch.setattr(session_list, "read_outline", lambda path: (opened.append(path), real(path))[1])
-    stored(tmp_path / "sessions" / "new.h5")
-    started(tmp_path)
+    store_file(tmp_path / "sessions" / "new.h5")
+    start_program(tmp_path)
     assert [path.name for path in opened] == ["new.h5"]
 
 
 def test_copied_session_counts_once(tmp_path: Path) -> None:
-    first = stored(tmp_path / "sessions" / "b.h5")
+    first = store_file(tmp_path / "sessions" / "b.h5")
     with opened_store(tmp_path) as house:
         house.files.scan()
         (patient,) = house.patients.search()
@@ -117,14 +117,14 @@ def test_copied_session_counts_once(tmp_path: Path) -> None:
 
 def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
     sessions = tmp_path / "sessions"
-    outside = stored(tmp_path / "outside.h5", "Elsewhere 1")
-    stored(sessions / "s.h5")
+    outside = store_file(tmp_path / "outside.h5", "Elsewhere 1")
+    store_file(sessions / "s.h5")
     shutil.copy(outside, os.fsencode(sessions) + b"/\xff\xfe.h5")
     (sessions / "link.h5").symlink_to(outside)
     (sessions / "dangling.h5").symlink_to(tmp_path / "nowhere")
     os.mkfifo(sessions / "pipe.h5")
     (sessions / "folder.h5").mkdir()
-    patients, faults = started(tmp_path)
+    patients, faults = start_program(tmp_path)
     assert patients == ["Linden 42"]
     assert len(faults) == 1
     assert isinstance(faults[0], SessionFilesIgnored)
@@ -132,16 +132,16 @@ def test_names_that_are_no_text_and_links(tmp_path: Path) -> None:
 
 
 def test_part_without_header_is_reported_once(tmp_path: Path) -> None:
-    part = stored(tmp_path / "sessions" / "s.h5", finished=False)
+    part = store_file(tmp_path / "sessions" / "s.h5", finished=False)
     part.write_bytes(b"\x89HDF" + bytes(3000))
     os.utime(part, (0, 0))
-    patients, faults = started(tmp_path)
+    patients, faults = start_program(tmp_path)
     assert (patients, len(faults)) == ([], 1)
-    assert started(tmp_path)[1] == []
+    assert start_program(tmp_path)[1] == []
     reserved = part.with_name("t.h5.01234567.part")
     reserved.write_bytes(bytes(600_000))  # ended before its first byte
     os.utime(reserved, (0, 0))
-    assert started(tmp_path)[1] == []
+    assert start_program(tmp_path)[1] == []
     assert part.exists()
     assert reserved.exists()
 
@@ -171,8 +171,8 @@ DAMAGE: dict[str, Callable[[Path], object]] = {
 @pytest.fixture(scope="module")
 def kept_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("kept")
-    stored(folder / "sessions" / "s.h5")
-    started(folder)
+    store_file(folder / "sessions" / "s.h5")
+    start_program(folder)
     return folder
 
 
@@ -181,7 +181,7 @@ def test_damaged_register_does_not_keep_program_from_starting(kept_folder: Path,
     shutil.copytree(kept_folder, tmp_path, dirs_exist_ok=True)
     DAMAGE[damage](tmp_path / STORE_FILE)
     assert damage != "misnamed" or b"TABLX" in (tmp_path / STORE_FILE).read_bytes()
-    patients, faults = started(tmp_path)
+    patients, faults = start_program(tmp_path)
     assert len(patients) == 1
     for fault in faults:
         assert isinstance(fault, PatientListRebuilt)
@@ -190,7 +190,7 @@ def test_damaged_register_does_not_keep_program_from_starting(kept_folder: Path,
         (patient,) = house.patients.search()
         assert patient.session_count == 1
         assert len(house.index.patient_sessions(patient.patient_id)) == 1
-    assert started(tmp_path) == (patients, [])
+    assert start_program(tmp_path) == (patients, [])
 
 
 def test_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:

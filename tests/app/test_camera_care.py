@@ -22,7 +22,7 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.types import SIMULATED, Frame
 from carpus.ui.screens.settings.camera_card import CameraCard
-from tests.studio import LENS, Studio, poses, texture_of
+from tests.studio import LENS, Studio, poses, render_texture
 
 SERIAL = "studio"
 pytestmark = pytest.mark.timeout(600)
@@ -48,7 +48,7 @@ class BoardCamera:
         self._closed = threading.Event()
 
     def frames(self) -> Iterator[Frame]:
-        studio, texture = Studio(LENS, 21, 0.03), texture_of(create_board_sheet(CHESSBOARD, "a4"))
+        studio, texture = Studio(LENS, 21, 0.03), render_texture(create_board_sheet(CHESSBOARD, "a4"))
         for index, placed in enumerate(itertools.cycle(poses(texture, 60))):
             if self._closed.wait(0.05):
                 return

@@ -23,7 +23,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import CLICKS_FILE
-from tests.capture.oni_writer import in_millimetres, write_oni
+from tests.capture.oni_writer import convert_to_millimetres, write_oni
 from tests.commands import Command
 from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
@@ -45,7 +45,7 @@ def session(tmp_path: Path) -> Path:
     return path
 
 
-def buffered() -> dict[str, str]:
+def buffer_output() -> dict[str, str]:
     """The environment of a child that keeps its output in hand for a while, as it does at a user's."""
     return {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 
@@ -85,7 +85,7 @@ def linked(recording: Path, copy: Path, without: str) -> Path:
     return copy
 
 
-def tracked(
+def track_file(
     command: Command, recording: Path, output: Path, *options: str, clicks: Path | None = None
 ) -> tuple[int, str]:
     """Exit code and messages of ``carpus track``."""
@@ -97,19 +97,19 @@ def test_tracking_says_what_of_the_camera_is_assumed(recording: Path, tmp_path: 
     """Before anything is tracked, which here has no clicks."""
     none = tmp_path / "none.json"
     copy = linked(recording, tmp_path / "copy", CAMERA_FILE)
-    assert CAMERA_FILE in tracked(command, copy, tmp_path / "a.h5", clicks=none)[1]
+    assert CAMERA_FILE in track_file(command, copy, tmp_path / "a.h5", clicks=none)[1]
     source, path = TumFolder(recording), tmp_path / "r.oni"
-    write_oni(path, in_millimetres(islice(source.frames(), 3)), source.info.camera, fps=30, color="jpeg")
+    write_oni(path, convert_to_millimetres(islice(source.frames(), 3)), source.info.camera, fps=30, color="jpeg")
     for sidecar in tmp_path.glob("*.yaml"):
         sidecar.unlink()
-    assert "depth and colour are aligned" in tracked(command, path, tmp_path / "s.h5", clicks=none)[1]
+    assert "depth and colour are aligned" in track_file(command, path, tmp_path / "s.h5", clicks=none)[1]
 
 
 @pytest.mark.parametrize("asked", ["info SESSION", "track --help"])
 def test_full_disk_under_output_is_reported(asked: str, session: Path) -> None:
     words = (*COMMAND, *asked.replace("SESSION", str(session)).split())
     with Path("/dev/full").open("w", encoding="utf-8") as full:
-        ended = subprocess.run(words, cwd=ROOT, env=buffered(), stdout=full, stderr=PIPE, check=False, text=True)
+        ended = subprocess.run(words, cwd=ROOT, env=buffer_output(), stdout=full, stderr=PIPE, check=False, text=True)
     assert ended.returncode == 1
     assert ended.stderr.startswith("carpus: ")
     assert ended.stderr.count("\n") == 1
@@ -123,7 +123,7 @@ def test_output_closed_by_its_reader_ends_quietly(asked: str, unbuffered: str, s
     reading, writing = os.pipe()
     os.close(reading)
     words = (*COMMAND, *asked.replace("SESSION", str(session)).split())
-    environment = buffered() | ({"PYTHONUNBUFFERED": unbuffered} if unbuffered else {})
+    environment = buffer_output() | ({"PYTHONUNBUFFERED": unbuffered} if unbuffered else {})
     ended = subprocess.run(words, cwd=ROOT, env=environment, stdout=writing, stderr=PIPE, check=False, text=True)
     os.close(writing)
     assert (ended.returncode, ended.stderr) == (1, "")
@@ -182,10 +182,10 @@ def test_damaged_frames_raise_or_are_skipped_and_reported(recording: Path, tmp_p
     color[4].write_text("no picture")
     color[7].unlink()
     assert "1 colour missing" in command("info", copy).err
-    code, said = tracked(command, copy, output)
+    code, said = track_file(command, copy, output)
     assert (code, color[7].name in said) == (1, True)
     assert not output.exists()
-    code, said = tracked(command, copy, output, "--leave-out-damaged")
+    code, said = track_file(command, copy, output, "--leave-out-damaged")
     assert (code, "1 colour damaged" in said, CAMERA_FILE in said) == (0, True, False)
     session = read_session(output)
     assert len(session) == len(color) - 2

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
 from carpus.core.records.log import read_log
-from tests.records.samples import LINDEN, kept
+from tests.records.samples import LINDEN, store_patient
 from tests.research.agreement.test_retest import write_session
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
@@ -28,7 +28,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 @pytest.fixture
 def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], tmp_path: Path) -> Desktop:
-    patient = kept(tmp_path / "data", LINDEN, (recorded[0], NOW, ""), (recorded[1], EARLIER, ""))
+    patient = store_patient(tmp_path / "data", LINDEN, (recorded[0], NOW, ""), (recorded[1], EARLIER, ""))
     opened = open_desktop(today=date(2026, 11, 20))
     opened.controller.sessions.open(patient)
     return opened

@@ -47,7 +47,7 @@ from carpus.ui.screens.sessions.session_store import SessionStore
 from carpus.ui.shell.current_selection import CurrentSelection
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.shell.main_window import MainWindow
-from tests.pipeline.test_correction import Stored, put_right, wrongly_tracked
+from tests.pipeline.test_correction import Stored, make_correction, wrongly_tracked
 from tests.ui.contexts import RecordingMessages, make_context
 
 
@@ -60,7 +60,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
 def corrected(stored: Stored) -> Path:
     """The new result of it."""
     path = stored.path.with_name("corrected.h5")
-    correct(load_task(stored.path, path, (put_right(stored),)))
+    correct(load_task(stored.path, path, (make_correction(stored),)))
     return path
 
 
@@ -96,7 +96,7 @@ class Kept:
         return trial
 
 
-def entered(library: DataFolder, stored: Stored, corrected: Path) -> Kept:
+def enter_session(library: DataFolder, stored: Stored, corrected: Path) -> Kept:
     patient = library.patients.add(Patient("Linden 42", "right"))
     when = datetime(2026, 11, 20, 11, 36).astimezone()
     path = library.session_list.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
@@ -107,7 +107,7 @@ def entered(library: DataFolder, stored: Stored, corrected: Path) -> Kept:
 @pytest.fixture
 def kept(tmp_path: Path, stored: Stored, corrected: Path) -> Iterator[Kept]:
     with closing(DataFolder(tmp_path / "data")) as library:
-        yield entered(library, stored, corrected)
+        yield enter_session(library, stored, corrected)
 
 
 Correcting = Callable[[RecordingMessages], tuple[CorrectionFlow, ScreenContext]]
@@ -138,14 +138,14 @@ class Killed(BaseException):
     """Stands for a SIGKILL: nothing that comes behind it is done."""
 
 
-def killed(*_: object) -> None:
+def raise_killed(*_: object) -> None:
     raise Killed
 
 
-def killed_once_listed(kept: Kept, monkeypatch: pytest.MonkeyPatch, trial: Path) -> None:
+def kill_once_listed(kept: Kept, monkeypatch: pytest.MonkeyPatch, trial: Path) -> None:
     """The program is killed while it takes a result: it is listed, and its file has not got its name yet."""
     with monkeypatch.context() as patched:
-        patched.setattr("carpus.core.records.corrections.publish", killed)
+        patched.setattr("carpus.core.records.corrections.publish", raise_killed)
         with pytest.raises(Killed):
             kept.corrections.accept(kept.session_id, trial)
 
@@ -229,7 +229,7 @@ def test_pending_result_is_decided_by_its_buttons_only(
     flow, context = correcting(messages)
     sheet, said = flow.dialog, list[tuple[int, int]]()
     flow.progress_changed.connect(lambda percent, count: said.append((percent, count)))
-    flow.start(kept.session_id, (put_right(stored),))
+    flow.start(kept.session_id, (make_correction(stored),))
     qtbot.waitUntil(lambda: said[-1:] == [(-1, 1)])
     assert (25, 0) in said
     assert not sheet.isVisible()
@@ -251,7 +251,7 @@ def test_pending_result_is_decided_by_its_buttons_only(
     assert line.correction.startswith("Corrected on ")
     assert line.correction.endswith(", from 00:02.0, by MK.")
     assert not messages.faults
-    flow.start(new, (put_right(stored),))
+    flow.start(new, (make_correction(stored),))
     flow.open_dialog()
     assert sheet.stop_button.isVisible()
     sheet.stop_button.click()
@@ -288,7 +288,7 @@ def test_killed_accept_leaves_the_old_or_the_new_result(
     library.save_choices(session_id, choices)
     trial = kept.trial()
     with monkeypatch.context() as patched:
-        patched.setattr(f"carpus.{step}", killed)
+        patched.setattr(f"carpus.{step}", raise_killed)
         with pytest.raises(Killed):
             kept.corrections.accept(session_id, trial)
     recover_sessions(library)
@@ -371,7 +371,7 @@ def test_listed_result_is_never_discarded(kept: Kept, monkeypatch: pytest.Monkey
     def slow(path: Path) -> None:
         raise SessionUnreadable(path, "damaged: Carpus could not finish reading it")
 
-    killed_once_listed(kept, monkeypatch, trial)
+    kill_once_listed(kept, monkeypatch, trial)
     with pytest.raises(ConcurrentChange):
         corrections.discard(trial)
     with monkeypatch.context() as patched:

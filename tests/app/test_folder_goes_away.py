@@ -27,10 +27,10 @@ from carpus.core.records.recordings import spool_folder
 from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.samples import record
-from tests.session.samples import CREATED, stored_journal
+from tests.session.samples import CREATED, write_closed_journal
 
 
-def recorded(library: DataFolder, patient_id: str, pseudonym: str = "Linden 42") -> Path:
+def record_session(library: DataFolder, patient_id: str, pseudonym: str = "Linden 42") -> Path:
     """A session that has just been recorded, and has not been entered."""
     return record(SessionIntake(library).new_path(set_up(patient_id, pseudonym)), pseudonym, CREATED, "left")
 
@@ -45,7 +45,7 @@ def test_session_without_its_folder_is_published_when_it_is_back(tmp_path: Path,
     key = library.patients.add(Patient("Linden 42", "left"))
     told: list[CarpusFault] = []
     library.on_fault = told.append
-    path = recorded(library, key)
+    path = record_session(library, key)
     assert path.parent == spool_folder(tmp_path / "data") / key
     assert path.parent.stat().st_mode & 0o777 == 0o700
     (tmp_path / "data").rename(tmp_path / "unplugged")
@@ -74,7 +74,7 @@ def test_hanging_share_does_not_block(library: DataFolder, monkeypatch: pytest.M
         return copy(path, folder)
 
     monkeypatch.setattr(new_sessions, "copy_session", hang)
-    path = recorded(library, key)
+    path = record_session(library, key)
     session_id = SessionIntake(library).register(set_up(key, "Linden 42"), path)
     assert [type(fault) for fault in told] == [SessionSpooled]
     assert len(library.session(session_id)) > 0
@@ -98,7 +98,7 @@ def test_full_data_folder_keeps_the_session_local_until_there_is_room(
     library.on_fault = told.append
     with monkeypatch.context() as patched:
         patched.setattr(new_sessions, "copy_session", full)
-        SessionIntake(library).register(set_up(key, "Linden 42"), recorded(library, key))
+        SessionIntake(library).register(set_up(key, "Linden 42"), record_session(library, key))
     assert [type(fault) for fault in told] == [SessionSpooled]
     SessionIntake(library).recover_interrupted()  # as when the list of patients is shown
     assert len(library.sessions(key)) == 1
@@ -107,8 +107,8 @@ def test_full_data_folder_keeps_the_session_local_until_there_is_room(
 def test_killed_recording_is_recovered_at_the_next_start(library: DataFolder) -> None:
     key = library.patients.add(Patient("Linden 42", "left"))
     path = SessionIntake(library).new_path(set_up(key, "Linden 42"))
-    stored_journal(path.with_suffix(".journal"), 40)
-    stored_journal(path.with_name("first second.journal"), 0)
+    write_closed_journal(path.with_suffix(".journal"), 40)
+    write_closed_journal(path.with_name("first second.journal"), 0)
     found, faults = recover_sessions(library)
     assert [(one.patient_id, round(one.duration_s, 1)) for one in found] == [(key, 1.3)]
     assert [type(fault) for fault in faults] == [RecordingTooShort]
@@ -124,7 +124,7 @@ def test_missing_share_does_not_prevent_measuring(tmp_path: Path) -> None:
         told: list[CarpusFault] = []
         library.on_fault = told.append
         linden = library.patients.add(Patient("Linden 42", "left"))
-        path = recorded(library, linden)
+        path = record_session(library, linden)
         SessionIntake(library).register(set_up(linden, "Linden 42"), path)
         assert [type(fault) for fault in told] == [SessionSpooled]
         recover_sessions(library)
@@ -140,12 +140,12 @@ def test_pending_data_of_deleted_patient_is_deleted(tmp_path: Path) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(DataFolder(data, sessions_folder=share)) as library:
         linden = library.patients.add(Patient("Linden 42", "left"))
-        path = recorded(library, linden)
+        path = record_session(library, linden)
         path.with_name("damaged.h5").write_bytes(b"of a kill")
         path.with_name("pictures.carpusraw").write_bytes(b"without a session")
-        stored_journal(path.with_name("killed.journal"), 3)
+        write_closed_journal(path.with_name("killed.journal"), 3)
         heron = library.patients.add(Patient("Heron 17", "left"))
-        recorded(library, heron, "Heron 17")
+        record_session(library, heron, "Heron 17")
         library.patients.change(Patient("Heron 18", "left", patient_id=heron))
         erase(library.store, plan_patient(library.store, linden), library.log_writer)
         share.mkdir()
@@ -163,11 +163,11 @@ def test_empty_mount_point_is_not_used_as_share(tmp_path: Path) -> None:
         assert recover_sessions(library) == ([], []), "a new one is empty"
         linden = library.patients.add(Patient("Linden 42", "left"))
         choice, places = set_up(linden, "Linden 42"), SessionIntake(library)
-        places.register(choice, recorded(library, linden))
+        places.register(choice, record_session(library, linden))
         share.rename(tmp_path / "unplugged")
         share.mkdir()
         assert [type(fault) for fault in recover_sessions(library)[1]] == [SessionShareEmpty]
-        places.register(choice, recorded(library, linden))
+        places.register(choice, record_session(library, linden))
         assert list(share.iterdir()) == [], "under the share it would be hidden"
         share.rmdir()
         (tmp_path / "unplugged").rename(share)

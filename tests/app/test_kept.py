@@ -28,7 +28,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.screens.sessions.session_store import SessionStore
 from tests.app.test_library import set_up, store
 from tests.commands import Command
-from tests.formats.takes import stored
+from tests.formats.takes import store_session
 from tests.records.samples import traces
 
 
@@ -109,7 +109,7 @@ def test_progress_of_a_listed_patient_excludes_the_archive(
     library: DataFolder, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     linden, heron = (library.patients.add(Patient(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
-    sessions, whole = [str(uuid.uuid4()) for _ in range(2)], stored(tmp_path, frames=120, moving=True)
+    sessions, whole = [str(uuid.uuid4()) for _ in range(2)], store_session(tmp_path, frames=120, moving=True)
     for session_id in sessions:
         path = library.session_list.new_path(linden, "Linden 42", "WRIST_FE", "left", datetime.now(UTC))
         shutil.copy(whole, path)

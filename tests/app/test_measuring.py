@@ -78,18 +78,20 @@ def begin_looking_back(piece_s: float = CHUNK_S) -> SmoothingProcess:
 
 
 @cache
-def walked() -> list[tuple[TrackedFrame, FilterSteps]]:
+def walk_session() -> list[tuple[TrackedFrame, FilterSteps]]:
     """Every frame as tracked, and its steps."""
     pipeline, kept = live_pipeline(), list[FilterSteps]()
     pipeline.on_steps = kept.append
     return list(zip([pipeline(frame) for frame in frames()], kept, strict=True))
 
 
-def recorded(path: Path, piece_s: float, at_row: Callable[[SmoothingProcess, int], None] = lambda *_: None) -> None:
+def record_session(
+    path: Path, piece_s: float, at_row: Callable[[SmoothingProcess, int], None] = lambda *_: None
+) -> None:
     """Records rows 30 to 559, pausing from 200 to 259; ``at_row`` is called before every frame."""
     looker = begin_looking_back(piece_s)
     session = open_session(path, looker)
-    for row, (tracked, kept) in enumerate(walked()):
+    for row, (tracked, kept) in enumerate(walk_session()):
         at_row(looker, row)
         if row >= 30:
             looker.add_steps(kept)
@@ -102,7 +104,7 @@ def recorded(path: Path, piece_s: float, at_row: Callable[[SmoothingProcess, int
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Session:
     """Looked back at once, when all of it is there."""
     path = tmp_path_factory.mktemp("whole") / "whole.h5"
-    recorded(path, 1e6)
+    record_session(path, 1e6)
     return read_session(path)
 
 
@@ -111,7 +113,7 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_pat
         if row == 500:  # stored while rows still come
             wait_until(lambda: looker.has_results)
 
-    recorded(tmp_path / "pieces.h5", CHUNK_S, come)
+    record_session(tmp_path / "pieces.h5", CHUNK_S, come)
     pieces = read_session(tmp_path / "pieces.h5")
     assert len(pieces.smoothed.angles_rad) == len(pieces.timestamp_s) == 470
     sd_rad = whole.smoothed.angles_sd_rad
@@ -130,7 +132,7 @@ def test_killed_smoothing_leaves_the_tracked_session_complete(
             wait_until(lambda: looker.pid is not None)
             os.kill(looker.pid or 0, signal.SIGKILL)
 
-    recorded(tmp_path / "killed.h5", CHUNK_S, kill)
+    record_session(tmp_path / "killed.h5", CHUNK_S, kill)
     killed = read_session(tmp_path / "killed.h5")
     assert killed.smoothed is None
     np.testing.assert_array_equal(killed.motion.angles_rad, whole.motion.angles_rad)

@@ -27,10 +27,10 @@ from carpus.core.session.writer import SessionWriter
 from carpus.ui.report.pdf import write_report
 from carpus.ui.report.session_page import build_session_report
 from tests.commands import Command
-from tests.formats.takes import stored
-from tests.records.samples import T0, kept
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, stored_journal
-from tests.ui.printed import words_of
+from tests.formats.takes import store_session
+from tests.records.samples import T0, store_patient
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, write_closed_journal
+from tests.ui.printed import read_words
 
 ROOT = Path(__file__).parents[2]
 
@@ -46,7 +46,7 @@ def test_sessions_and_raw_pictures_are_for_their_owner(tmp_path: Path) -> None:
         assert mode(hidden) == 0o600
         writer.append(make_frame(0))
     assert mode(path) == 0o600
-    assert mode(stored_journal(tmp_path / "s.journal", 0)) == 0o600
+    assert mode(write_closed_journal(tmp_path / "s.journal", 0)) == 0o600
     with RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", Camera(500, 500, 320, 240), True, None, 30.0, {})):
         assert mode(tmp_path / "s.carpusraw") == 0o600
 
@@ -86,7 +86,7 @@ def test_identity_is_in_no_byte_outside_the_store(tmp_path: Path, own_folders: P
         sex="diverse", diagnosis="Kienboeck",
     )  # fmt: skip
     data, out = tmp_path / "data", tmp_path / "out"
-    patient_id = kept(data, secret, (stored(tmp_path, frames=40), T0, "AB"))
+    patient_id = store_patient(data, secret, (store_session(tmp_path, frames=40), T0, "AB"))
     with closing(DataFolder(data)) as library:
         (entry,) = library.sessions(patient_id)
         library.save_comment(entry.session_id, "Less swelling.")
@@ -106,7 +106,7 @@ def test_identity_is_in_no_byte_outside_the_store(tmp_path: Path, own_folders: P
             with h5py.File(path) as file:
                 file.visititems(lambda _, one, texts=texts: texts.append(_unpacked(one)))
         if path.suffix == ".pdf":
-            texts.append(words_of(path).encode())
+            texts.append(read_words(path).encode())
         found = [word for word in spelled for text in texts if word.encode() in text.lower()]
         assert found == [], path
 

@@ -26,9 +26,9 @@ from carpus.core.session.reader import read_outline
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from tests.commands import Command
-from tests.formats.takes import stored
+from tests.formats.takes import store_session
 from tests.moments import with_moment
-from tests.records.samples import opened
+from tests.records.samples import open_store
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 ROOT = Path(__file__).parents[2]
@@ -92,7 +92,7 @@ def test_report_has_the_comment_and_chosen_paper_and_language(
     sessions: list[Path], tmp_path: Path, command: Command
 ) -> None:
     path, out = tmp_path / "data" / "sessions" / "day.h5", tmp_path / "de.pdf"
-    with opened(tmp_path / "data") as house:
+    with open_store(tmp_path / "data") as house:
         shutil.copy(sessions[0], path)
         house.files.scan()
         add_comment(house.store, read_outline(path).header.session_id, "Splint at night.", "")
@@ -118,7 +118,7 @@ def test_repetition_excluded_in_review_is_excluded_everywhere(tmp_path: Path, co
             there = with_moment(frame(row), **still)
             writer.append(replace(there, status=TrackStatus.TRACKED, dropped_before=0))
     whole = {row.measure: row.count for row in python_api.open_session(path).measures()}
-    with opened(tmp_path / "data") as house:
+    with open_store(tmp_path / "data") as house:
         house.files.scan()
         save_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
     assert command("report", path, "--output", tmp_path / "day.pdf").code == 0
@@ -148,8 +148,8 @@ def test_missing_display_is_reported_with_remedy() -> None:
 def folder(tmp_path: Path) -> Path:
     """Sessions of one patient, and a file that is none."""
     (tmp_path / "sessions").mkdir()
-    stored(tmp_path / "sessions", frames=120, moving=True)
-    shutil.copy(stored(tmp_path, frames=3), tmp_path / "sessions" / "two.h5")
+    store_session(tmp_path / "sessions", frames=120, moving=True)
+    shutil.copy(store_session(tmp_path, frames=3), tmp_path / "sessions" / "two.h5")
     (tmp_path / "sessions" / "broken.h5").write_bytes(b"nothing")
     return tmp_path / "sessions"
 

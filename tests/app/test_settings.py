@@ -42,7 +42,7 @@ from carpus.core.results.report_form import ReportSettings
 DEFAULTS = Path(__file__).parents[2] / "resources" / "defaults.toml"
 
 
-def written(folder: Path, text: str) -> Path:
+def write_settings(folder: Path, text: str) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / SETTINGS_FILE).write_text(text, encoding="utf-8")
     return folder
@@ -87,7 +87,7 @@ def test_shipped_file_has_each_setting_with_a_sentence() -> None:
 
 def test_persons_file_goes_over_defaults_and_leaves_rest(tmp_path: Path) -> None:
     text = '[tracker]\nprofile = "slow"\nlost_after_s = 2\n[live]\nrows_waiting = 800\n'
-    settings = load_settings(written(tmp_path, text))
+    settings = load_settings(write_settings(tmp_path, text))
     assert settings.track.tracker.profile == "slow"
     assert settings.track.tracker.lost_after_s == 2.0
     assert isinstance(settings.track.tracker.lost_after_s, float)
@@ -113,17 +113,17 @@ def test_persons_file_goes_over_defaults_and_leaves_rest(tmp_path: Path) -> None
 )
 def test_invalid_setting_is_reported_with_its_file(tmp_path: Path, text: str, named: str) -> None:
     with pytest.raises(SettingsInvalid) as fault:
-        load_settings(written(tmp_path, text))
+        load_settings(write_settings(tmp_path, text))
     assert fault.value.subject == named
     assert SETTINGS_FILE in fault.value.detail
     assert named in format_fault_line(fault.value)
     with pytest.raises(SettingsInvalid) as fault:
-        load_settings(written(tmp_path, "theme = light"))
+        load_settings(write_settings(tmp_path, "theme = light"))
     assert SETTINGS_FILE in fault.value.subject, "no TOML at all"
 
 
 def test_window_preferences_override_settings_file(tmp_path: Path) -> None:
-    written(tmp_path, '[screen]\ntheme = "light"\n[tracker]\nprofile = "brisk"\n')
+    write_settings(tmp_path, '[screen]\ntheme = "light"\n[tracker]\nprofile = "brisk"\n')
     chosen = dataclasses.replace(
         Settings(),
         screen=ScreenSettings("dark", 1.25),
@@ -144,13 +144,13 @@ def test_settings_of_earlier_versions_that_are_gone_are_ignored_with_a_line_in_t
     for place in OBSOLETE:
         section, _, name = place.rpartition(".")
         caplog.clear()
-        assert load_settings(written(tmp_path, f"[{section}]\n{name} = 3\n")) == load_settings(tmp_path / "none")
+        assert load_settings(write_settings(tmp_path, f"[{section}]\n{name} = 3\n")) == load_settings(tmp_path / "none")
         assert place in caplog.text
 
 
 def test_data_folder_is_users_own_unless_named(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert load_settings().data_folder.is_relative_to(own_folders)
-    written(settings_folder(), '[recording]\nfolder = "/clinic"\n')
+    write_settings(settings_folder(), '[recording]\nfolder = "/clinic"\n')
     assert load_settings().data_folder == Path("/clinic")
     monkeypatch.setenv("CARPUS_DATA", "/elsewhere")
     assert load_settings().data_folder == Path("/elsewhere")
@@ -158,13 +158,13 @@ def test_data_folder_is_users_own_unless_named(own_folders: Path, monkeypatch: p
 
 @pytest.mark.parametrize("url", ["http://h/d", "postgresql:h", "postgresql://h:abc/d", "postgresql://[::1/d", "carpus"])
 def test_url_that_is_none_is_reported(tmp_path: Path, url: str) -> None:
-    written(tmp_path, f'[records]\nurl = "{url}"\n')
+    write_settings(tmp_path, f'[records]\nurl = "{url}"\n')
     with pytest.raises(SettingsInvalid, match="not one of a PostgreSQL server"):
         load_settings(tmp_path)
 
 
 def test_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
-    written(tmp_path / "settings", '[recording]\nfolder = "/clinic"\n[records]\nurl = "postgresql://a@b/c"\n')
+    write_settings(tmp_path / "settings", '[recording]\nfolder = "/clinic"\n[records]\nurl = "postgresql://a@b/c"\n')
     settings = with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
     assert (settings.data_folder, settings.records.url, settings.backup.hour) == (tmp_path / "of one run", "", -1)
     desktop = open_desktop(settings)

@@ -28,14 +28,14 @@ from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
 
 
-def stored(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __version__, **header: Any) -> Path:
+def store_recording(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __version__, **header: Any) -> Path:
     """A session without a frame."""
     made = replace(new_header(hand="right", protocol=protocol, **header), software_version=version)
     SessionWriter.create(path, made, CAMERA, make_calibration(protocol)).close()
     return path
 
 
-def said_of(settings: TrackSettings) -> str:
+def run_track(settings: TrackSettings) -> str:
     """As a session keeps them."""
     return format_parameters(settings, {}, NeutralNoise(0.1, 1.0, 0.0))
 
@@ -48,7 +48,7 @@ def test_retracked_session_keeps_its_joints_and_markers(
     options: tuple[str, ...], dip: str, on_skin: bool, tmp_path: Path, command: Command
 ) -> None:
     settings = TrackSettings(tracker=TrackerSettings(dip="free", fingers=FingerSettings(skin_offsets=False)))
-    session = stored(tmp_path / "s.h5", HAND21, "0", dip_free=True, parameters=said_of(settings))
+    session = store_recording(tmp_path / "s.h5", HAND21, "0", dip_free=True, parameters=run_track(settings))
     assert command("track", session, "--output", tmp_path / "again.h5", "--no-smooth", *options).code == 0
     again = read_session(tmp_path / "again.h5").header
     told = json.loads(again.parameters)["settings"]["tracker"]
@@ -59,7 +59,7 @@ def test_retracked_session_keeps_its_joints_and_markers(
 def test_retracked_session_keeps_settings_and_reports_differences(tmp_path: Path, command: Command) -> None:
     tracker = TrackerSettings(profile="slow", mode_scales=(1.0,), use_depth=False)
     before = TrackSettings(tracker=tracker, detection=DetectionSettings(min_area_ratio=0.2), smooth=False)
-    session = stored(tmp_path / "session.h5", parameters=said_of(before))
+    session = store_recording(tmp_path / "session.h5", parameters=run_track(before))
     done = command("track", session, "--output", tmp_path / "same.h5")
     assert done.code == 0
     old, same = read_session(session).header, read_session(tmp_path / "same.h5").header
@@ -76,9 +76,9 @@ def test_retracked_session_keeps_settings_and_reports_differences(tmp_path: Path
 
 
 def test_other_version_and_removed_setting_are_reported(tmp_path: Path, command: Command) -> None:
-    parameters = json.loads(said_of(TrackSettings()))
+    parameters = json.loads(run_track(TrackSettings()))
     parameters["settings"]["tracker"]["oracle"] = 3
-    session = stored(tmp_path / "session.h5", version="0.0.9", parameters=json.dumps(parameters))
+    session = store_recording(tmp_path / "session.h5", version="0.0.9", parameters=json.dumps(parameters))
     done = command("track", session, "--output", tmp_path / "again.h5")
     assert done.code == 0
     assert "was 0.0.9" in done.out

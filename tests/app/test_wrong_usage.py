@@ -22,8 +22,8 @@ from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import Patient
 from tests.commands import Command
-from tests.formats.takes import stored
-from tests.records.samples import opened
+from tests.formats.takes import store_session
+from tests.records.samples import open_store
 
 WRONG: dict[str, list[tuple[str, int, str]]] = {
     "demo": [("--data-folder", 2, "--data-folder")],
@@ -172,9 +172,9 @@ def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     names["loop"].symlink_to(names["loop"])
     for name in ("file", "junk"):
         names[name].write_bytes(b"neither this nor that")
-    with opened(names["data"]) as house:
+    with open_store(names["data"]) as house:
         house.patients.add(Patient("Fern 12", "right"))
-    return names | {"session": stored(tmp_path_factory.mktemp("session"), frames=30, moving=True)}
+    return names | {"session": store_session(tmp_path_factory.mktemp("session"), frames=30, moving=True)}
 
 
 @pytest.fixture

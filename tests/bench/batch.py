@@ -18,7 +18,7 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
-from tests.bench.tracking import pipeline_of
+from tests.bench.tracking import make_pipeline
 
 SECONDS, EACH = 6.0, 4
 LONGER_S = 20.0
@@ -31,7 +31,7 @@ def _tracked(path: Path, clicks: Clicks, number: int) -> int:
     return track_recording(RawRecording(path), clicks, output, settings, path=path).frames
 
 
-def of_raw() -> Iterator[str]:
+def track_raw() -> Iterator[str]:
     """The second of two walks through a raw recording of the wrist, beside tracking its frames unpacked before."""
     recording = render_cached(RecordingSpec(seed=7, motion="flexion", seconds=LONGER_S))
     clicks = read_clicks(recording / CLICKS_FILE, 640, 480)
@@ -48,7 +48,7 @@ def of_raw() -> Iterator[str]:
         count = _tracked(path, clicks, 1)
         whole_s = time.process_time() - begin_s
         frames = list(islice(RawRecording(path).frames(), 240))
-        pipeline, still_until_s = pipeline_of(recording, frames)
+        pipeline, still_until_s = make_pipeline(recording, frames)
         moving = [frame for frame in frames if frame.timestamp_s > still_until_s]
         begin_s = time.process_time()
         for frame in moving:
@@ -64,7 +64,7 @@ def of_raw() -> Iterator[str]:
 
 def report() -> Iterator[str]:
     """Measure and tell, line by line: so many recordings for each process, from one process to one a core."""
-    yield from of_raw()
+    yield from track_raw()
     recording = render_cached(RecordingSpec(seed=7, motion="flexion", seconds=SECONDS))
     yield f"Recordings of {SECONDS:g} s (six discs, looked back at) tracked a minute; start of the processes included"
     one = 0.0

@@ -49,7 +49,7 @@ class ReferenceFilter:
         start = np.concatenate((self.mean, np.zeros(NOISE)))
         points = start + self._root * np.concatenate((np.zeros((1, size)), root.T, -root.T))
         moved = _moved(points, dt_s)
-        seen = measured(moved)
+        seen = project_markers(moved)
         mean, expected = self._mean_weight @ moved, self._mean_weight @ seen
         state_error, pixel_error = moved - mean, seen - expected
         weighted = self._cov_weight[:, None] * pixel_error
@@ -72,7 +72,7 @@ def _moved(points: FloatArray, dt_s: float) -> FloatArray:
     return out
 
 
-def measured(states: FloatArray) -> FloatArray:
+def project_markers(states: FloatArray) -> FloatArray:
     """Pixels (P, 42) of the markers for states (P, 26)."""
     in_hand = _markers_m(states[:, 9:26])
     rotation = _rotations(states[:, 6:9])

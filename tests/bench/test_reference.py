@@ -10,7 +10,7 @@ from carpus.core.tracking import hand_filter
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from tests.bench import reference
-from tests.bench.tracking import spied
+from tests.bench.tracking import spy_on_parts
 from tests.tracking.hands import CAMERA, Pose, blobs, calibration
 
 
@@ -19,7 +19,7 @@ def test_plain_filter_follows_wrist_and_fingers() -> None:
     place_m, joints_rad = [], []
     for k in range(1, 240):
         truth = reference.motion(k / 30.0)
-        pixel = reference.measured(truth[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
+        pixel = reference.project_markers(truth[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
         plain.step(pixel, 1.0 / 30.0)
         if k > 60:
             place_m.append(plain.mean[:3] - truth[:3])
@@ -39,7 +39,7 @@ def test_spy_measures_parts_of_frame_and_leaves_no_trace() -> None:
 
     pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
     true = hand_filter.associate_and_update
-    with spied(pipeline) as spy:
+    with spy_on_parts(pipeline) as spy:
         for index in range(5):
             pipeline(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
         assert hand_filter.associate_and_update is not true

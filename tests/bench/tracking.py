@@ -62,12 +62,12 @@ class Costs:
         return f"640 x 480, {len(self.whole)} frames, {100.0 * self.tracked / len(self.whole):.1f} % tracked"
 
 
-def frames_of(folder: Path) -> list[Frame]:
+def read_frames(folder: Path) -> list[Frame]:
     """All frames, decoded."""
     return list(TumFolder(folder).frames())
 
 
-def pipeline_of(folder: Path, frames: list[Frame]) -> tuple[FramePipeline, float]:
+def make_pipeline(folder: Path, frames: list[Frame]) -> tuple[FramePipeline, float]:
     """A calibrated pipeline at its start, and until when the hand was still."""
     camera, settings = TumFolder(folder).info.camera, TrackSettings()
     opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
@@ -81,7 +81,7 @@ def pipeline_of(folder: Path, frames: list[Frame]) -> tuple[FramePipeline, float
 
 def plain_step(plain: reference.ReferenceFilter, time_s: float, rng: np.random.Generator) -> float:
     """One step of the yardstick on its own motion; CPU milliseconds."""
-    pixel = reference.measured(reference.motion(time_s)[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
+    pixel = reference.project_markers(reference.motion(time_s)[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
     times = Times()
     with times.measured():
         plain.step(pixel, 1.0 / 30.0)
@@ -90,11 +90,11 @@ def plain_step(plain: reference.ReferenceFilter, time_s: float, rng: np.random.G
 
 def measure(folder: Path, costs: Costs, rounds: int, parts: Sequence[tuple[object, str, str]] = WRIST_PARTS) -> None:
     """Track the recording so often: once as a whole, and once with its parts measured, whose measuring costs itself."""
-    frames = frames_of(folder)
+    frames = read_frames(folder)
     for _ in range(rounds):
         whole_ms = whole_frames(folder, frames, costs)
-        pipeline, ends_s = pipeline_of(folder, frames)
-        with spied(pipeline, parts) as spy:
+        pipeline, ends_s = make_pipeline(folder, frames)
+        with spy_on_parts(pipeline, parts) as spy:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):
                 _parts(pipeline, frame, spy, whole, costs)
                 step_ms()
@@ -102,7 +102,7 @@ def measure(folder: Path, costs: Costs, rounds: int, parts: Sequence[tuple[objec
 
 def whole_frames(folder: Path, frames: list[Frame], costs: Costs) -> list[float]:
     """Track the recording once, nothing measured inside a frame; CPU milliseconds of each frame."""
-    pipeline, ends_s = pipeline_of(folder, frames)
+    pipeline, ends_s = make_pipeline(folder, frames)
     times = Times()
     for frame, step_ms in beside_the_plain(frames, ends_s):
         with times.measured():
@@ -125,7 +125,7 @@ def beside_the_plain(frames: list[Frame], ends_s: float) -> Iterator[tuple[Frame
 
 
 @contextmanager
-def spied(pipeline: FramePipeline, parts: Sequence[tuple[object, str, str]] = WRIST_PARTS) -> Iterator[Spy]:
+def spy_on_parts(pipeline: FramePipeline, parts: Sequence[tuple[object, str, str]] = WRIST_PARTS) -> Iterator[Spy]:
     """The pipeline with its parts measured."""
     spy = Spy()
     spy.watch(pipeline.detector, "detect", "narrow", "wide", choose=lambda _, region=None: int(region is None))

@@ -119,14 +119,14 @@ class Watcher(QObject):
             self._run.drawn_at_s.append(now_s)
 
 
-def spec_of(set_up: SessionSetup) -> RecordingSpec:
+def make_spec(set_up: SessionSetup) -> RecordingSpec:
     """The practice patient at a real camera's rate; the program itself shows it with half the pictures."""
     return replace(practice_spec(set_up), fps=FPS)
 
 
-def take(set_up: SessionSetup, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
+def render_take(set_up: SessionSetup, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
     """The take, rendered once and kept, and how long it is still at its start."""
-    folder = render_cached(spec_of(set_up), progress, workers=os.cpu_count() or 1)
+    folder = render_cached(make_spec(set_up), progress, workers=os.cpu_count() or 1)
     return TumFolder(folder, read_ahead=READ_AHEAD), STILL_S - 1.0 / FPS
 
 
@@ -143,7 +143,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
     """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
     qt = create_application(["bench"])
-    desktop = compose.compose(qt, settings, is_demo=True, practice_renderer=take)
+    desktop = compose.compose(qt, settings, is_demo=True, practice_renderer=render_take)
     run = Run()
     try:
         walker, journey = DemoDriver(desktop), desktop.controller
@@ -160,7 +160,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         assert source is not None
         source.measuring._set_up = replace(source.measuring._set_up, stores_frames=pictures)
         walker.capture_frame()
-        walker.click_markers(read_clicks(render_cached(spec_of(set_up)) / CLICKS_FILE).pixel)
+        walker.click_markers(read_clicks(render_cached(make_spec(set_up)) / CLICKS_FILE).pixel)
         live, feed = journey.live.screen, source.measuring.feed
         live.recording.toggle()
         walker.run_until(lambda: live.recording.state == "recording")

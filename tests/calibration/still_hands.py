@@ -46,7 +46,7 @@ class Scene:
         return CAMERA.project(self.discs_cam_m)
 
 
-def frames_of(
+def make_frames(
     scene: Scene,
     count: int = 17,
     seed: int = 0,
@@ -75,25 +75,27 @@ def frames_of(
     return out
 
 
-def clicks_on(scene: Scene, error_px: FloatArray | float = 0.0) -> Clicks:
+def click_discs(scene: Scene, error_px: FloatArray | float = 0.0) -> Clicks:
     return Clicks(scene.side, WRIST6, scene.discs_px + error_px)
 
 
 @lru_cache(maxsize=8)
-def _painted(scene: Scene) -> tuple[Frame, ...]:
-    return tuple(frames_of(scene))
+def _paint(scene: Scene) -> tuple[Frame, ...]:
+    return tuple(make_frames(scene))
 
 
-def still(scene: Scene, count: int = 17) -> list[Frame]:
+def render_still_hand(scene: Scene, count: int = 17) -> list[Frame]:
     """The hand lying still; painted once for all tests."""
-    return list(_painted(scene)[:count])
+    return list(_paint(scene)[:count])
 
 
-def outcome_of(
+def run_calibration(
     scene: Scene,
     clicks: Clicks | None = None,
     frames: list[Frame] | None = None,
     settings: CalibrationSettings | None = None,
 ) -> CalibrationOutcome:
     own = settings or CalibrationSettings()
-    return calibrate_hand(clicks or clicks_on(scene), frames or still(scene), CAMERA, own, DetectionSettings())
+    return calibrate_hand(
+        clicks or click_discs(scene), frames or render_still_hand(scene), CAMERA, own, DetectionSettings()
+    )

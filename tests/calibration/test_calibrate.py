@@ -21,7 +21,7 @@ from carpus.core.model.depth_sensor import PRIMESENSE
 from carpus.core.model.errors import ClickOnNoMarker, MarkerWithoutDepth
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.model.types import Side
-from tests.calibration.still_hands import Scene, clicks_on, frames_of, outcome_of, still
+from tests.calibration.still_hands import Scene, click_discs, make_frames, render_still_hand, run_calibration
 from tests.detection.pictures import CAMERA, PALM_PX
 from tests.tracking.hands import palm
 
@@ -30,7 +30,7 @@ NAMES = WRIST6.markers
 
 
 def assert_good(scene: Scene, **kwargs: object) -> Calibration:
-    outcome = outcome_of(scene, **kwargs)  # type: ignore[arg-type]
+    outcome = run_calibration(scene, **kwargs)  # type: ignore[arg-type]
     assert outcome.verdict.findings == ()
     assert outcome.calibration is not None
     return outcome.calibration
@@ -74,11 +74,11 @@ def test_calibrate_hand_verdict_has_plain_values() -> None:
 
 def test_calibrate_hand_click_on_skin_is_named() -> None:
     scene = Scene()
-    clicks = clicks_on(scene)
+    clicks = click_discs(scene)
     pixel = clicks.pixel.copy()
     pixel[4] = 0.5 * (scene.discs_px[0] + scene.discs_px[3]) + [8.0, 0.0]
     assert np.linalg.norm(scene.discs_px - pixel[4], axis=1).min() > 15.0
-    outcome = outcome_of(scene, replace(clicks, pixel=pixel))
+    outcome = run_calibration(scene, replace(clicks, pixel=pixel))
     finding = single_finding(outcome.verdict.findings, "click_on_no_marker")
     assert finding.markers == ("MCP4",)
     assert finding.blocks
@@ -93,10 +93,10 @@ def test_calibrate_hand_click_on_skin_is_named() -> None:
 
 def test_calibrate_hand_two_clicks_on_one_marker_are_named() -> None:
     scene = Scene()
-    clicks = clicks_on(scene)
+    clicks = click_discs(scene)
     pixel = clicks.pixel.copy()
     pixel[5] = pixel[4] + [1.5, -1.0]
-    outcome = outcome_of(scene, replace(clicks, pixel=pixel))
+    outcome = run_calibration(scene, replace(clicks, pixel=pixel))
     finding = single_finding(outcome.verdict.findings, "two_clicks_on_one")
     assert set(finding.markers) == {"MCP4", "MCP5"}
     assert finding.blocks
@@ -117,7 +117,7 @@ def test_calibrate_hand_swapped_clicks_are_named(pair: tuple[int, int], side: Si
     scene = Scene(side)
     pixel = scene.discs_px.copy()
     pixel[list(pair)] = pixel[list(pair)][::-1]
-    verdict = outcome_of(scene, Clicks(side, WRIST6, pixel), still(scene, 1)).verdict
+    verdict = run_calibration(scene, Clicks(side, WRIST6, pixel), render_still_hand(scene, 1)).verdict
     swaps = [finding for finding in verdict.findings if finding.kind == "swapped"]
     assert [set(finding.markers) for finding in swaps] == [{NAMES[pair[0]], NAMES[pair[1]]}]
     assert not any(finding.blocks for finding in verdict.findings), "it is told, and tracking may go on"
@@ -126,7 +126,9 @@ def test_calibrate_hand_swapped_clicks_are_named(pair: tuple[int, int], side: Si
 @pytest.mark.parametrize(("side", "by"), [("right", 1), ("left", -2)])
 def test_calibrate_hand_shifted_labels_are_refused(side: Side, by: int) -> None:
     scene = Scene(side)
-    outcome = outcome_of(scene, Clicks(side, WRIST6, np.roll(scene.discs_px, by, axis=0)), still(scene, 5))
+    outcome = run_calibration(
+        scene, Clicks(side, WRIST6, np.roll(scene.discs_px, by, axis=0)), render_still_hand(scene, 5)
+    )
     finding = single_finding(outcome.verdict.findings, "shifted")
     assert set(finding.markers) == set(NAMES)
     assert finding.markers[:2] == ("WRIST", NAMES[-by])
@@ -138,12 +140,12 @@ def test_calibrate_hand_shifted_labels_are_refused(side: Side, by: int) -> None:
 def test_calibrate_hand_wrong_side_is_found(side: Side) -> None:
     scene = Scene(side)
     claimed: Side = "left" if side == "right" else "right"
-    outcome = outcome_of(scene, Clicks(claimed, WRIST6, scene.discs_px))
+    outcome = run_calibration(scene, Clicks(claimed, WRIST6, scene.discs_px))
     assert single_finding(outcome.verdict.findings, "wrong_side").blocks is False
 
 
 def test_check_hand_length_other_length_is_found() -> None:
-    outcome = outcome_of(Scene())
+    outcome = run_calibration(Scene())
     length_mm = outcome.verdict.hand_length_mm
     for same in (math.nan, length_mm, 0.9 * length_mm, 1.1 * length_mm):
         assert check_hand_length(outcome, same) is outcome
@@ -159,7 +161,7 @@ def test_check_hand_length_other_length_is_found() -> None:
 @pytest.mark.parametrize("marker", [0, 5])
 def test_calibrate_hand_marker_without_depth_is_named(marker: int) -> None:
     scene = Scene()
-    outcome = outcome_of(scene, frames=frames_of(scene, 5, hole_at=marker))
+    outcome = run_calibration(scene, frames=make_frames(scene, 5, hole_at=marker))
     finding = single_finding(outcome.verdict.findings, "no_depth")
     assert finding.markers == (NAMES[marker],)
     assert finding.blocks
@@ -170,8 +172,8 @@ def test_calibrate_hand_marker_without_depth_is_named(marker: int) -> None:
 
 def test_calibrate_hand_without_depth_names_every_marker() -> None:
     scene = Scene()
-    frames = [replace(frame, depth_raw=None) for frame in still(scene)]
-    outcome = outcome_of(scene, frames=frames)
+    frames = [replace(frame, depth_raw=None) for frame in render_still_hand(scene)]
+    outcome = run_calibration(scene, frames=frames)
     assert {finding.kind for finding in outcome.verdict.findings} == {"no_depth"}
     assert {finding.markers[0] for finding in outcome.verdict.findings} == set(NAMES)
     with pytest.raises(MarkerWithoutDepth):
@@ -190,7 +192,7 @@ def test_calibrate_hand_without_depth_names_every_marker() -> None:
 def test_calibrate_hand_tilt_and_distance_are_found_with_value(
     scene: Scene, kind: str, value: object, limit: float, unit: str
 ) -> None:
-    finding = single_finding(outcome_of(scene).verdict.findings, kind)
+    finding = single_finding(run_calibration(scene).verdict.findings, kind)
     assert finding.value == value
     assert (finding.limit, finding.unit, finding.blocks) == (limit, unit, False)
 
@@ -199,7 +201,7 @@ def test_neutral_capture_ends_when_the_hand_moves() -> None:
     scene = Scene()
     shift = np.zeros((17, 2))
     shift[9:, 0] = 0.6 * np.arange(1, 9)
-    outcome = outcome_of(scene, frames=frames_of(scene, shift_px=shift))
+    outcome = run_calibration(scene, frames=make_frames(scene, shift_px=shift))
     # A shift of more than 0.7 px is a movement: the tenth picture still passes, the eleventh does not.
     assert outcome.capture_frames == 10
     assert outcome.verdict.findings == ()
@@ -209,13 +211,13 @@ def test_neutral_capture_ends_when_the_hand_moves() -> None:
 def test_calibrate_hand_jumping_depth_gives_residual() -> None:
     scene = Scene()
     frames = []
-    for k, frame in enumerate(still(scene)):
+    for k, frame in enumerate(render_still_hand(scene)):
         assert frame.depth_raw is not None
         raw = frame.depth_raw.copy()
         u, v = np.rint(scene.discs_px[4]).astype(int)
         raw[v - 8 : v + 9, u - 8 : u + 9] += np.uint16(60 if k % 2 else 0)  # 12 mm to and fro
         frames.append(replace(frame, depth_raw=raw))
-    verdict = outcome_of(scene, frames=frames).verdict
+    verdict = run_calibration(scene, frames=frames).verdict
     finding = single_finding(verdict.findings, "residual")
     assert finding.markers == ("MCP4",)
     assert finding.value == pytest.approx(6.0, abs=1.0)
@@ -225,11 +227,13 @@ def test_calibrate_hand_jumping_depth_gives_residual() -> None:
 
 def test_measure_hand_noise_of_a_still_hand_is_measured() -> None:
     scene = Scene()
-    quiet, loud = (outcome_of(one, frames=frames_of(one, 9)).noise for one in (Scene(noise=0.5), Scene(noise=2.0)))
+    quiet, loud = (
+        run_calibration(one, frames=make_frames(one, 9)).noise for one in (Scene(noise=0.5), Scene(noise=2.0))
+    )
     assert 0.0 < quiet.pixel_sd_px < 0.5 * loud.pixel_sd_px
     assert quiet.depth_sd_m < 0.6 * loud.depth_sd_m
     assert loud.marker_radius_m == pytest.approx(0.006, rel=0.1)
-    few = outcome_of(scene, frames=still(scene, 3)).noise
+    few = run_calibration(scene, frames=render_still_hand(scene, 3)).noise
     assert np.isnan(few.pixel_sd_px), "three pictures show no noise worth the name"
 
 
@@ -237,7 +241,7 @@ def test_measure_hand_covariances_match_errors() -> None:
     """Errors in depth over many hands against what is claimed; sideways the discs are known far better."""
     squares = []
     for scene in (Scene(), Scene("left"), Scene(tilt_deg=9.0, distance_m=0.66)):
-        found = outcome_of(scene).calibration
+        found = run_calibration(scene).calibration
         assert found is not None
         placed = found.marker_position_w0_m @ found.rotation_w0_cam.T + found.translation_w0_cam_m
         covariance_cam = found.rotation_w0_cam @ found.marker_covariance_w0_m2 @ found.rotation_w0_cam.T

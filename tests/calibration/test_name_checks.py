@@ -67,7 +67,7 @@ def test_shifted_labels_of_a_tilted_hand_are_found(axis: str, tilt_deg: float) -
 
 
 # --- the whole hand -------------------------------------------------------------------------
-def bent_plan(rng: np.random.Generator, side: Side) -> FloatArray:
+def bend_plan(rng: np.random.Generator, side: Side) -> FloatArray:
     """A hand with every finger bent and spread by itself, as far as its tips stay in view, a little tilted."""
     angle = dict.fromkeys(joint_angle_names(), 0.0)
     for finger in "2345":
@@ -89,7 +89,7 @@ def test_label_fault_of_right_labels_is_none(side: Side) -> None:
     for seed in range(12):
         assert find_label_fault(HAND21, side, visible_plan(seed, side)) is None
     rng = np.random.default_rng(4)
-    assert [find_label_fault(HAND21, side, bent_plan(rng, side)) for _ in range(80)] == [None] * 80
+    assert [find_label_fault(HAND21, side, bend_plan(rng, side)) for _ in range(80)] == [None] * 80
 
 
 def test_label_fault_two_swapped_fingers_are_named() -> None:

@@ -13,7 +13,7 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.hand.protocols import PALM_MARKERS
 from carpus.core.model.types import FloatArray, Side
-from tests.calibration.still_hands import Scene, clicks_on, frames_of
+from tests.calibration.still_hands import Scene, click_discs, make_frames
 from tests.detection.pictures import CAMERA, PAPERS, SKIN, Extra
 
 SIDES: tuple[Side, Side] = ("right", "left")
@@ -24,8 +24,8 @@ MCP3 = PALM_MARKERS.index("MCP3")
 def calibrate_clicks(scene: Scene, clicked_px: FloatArray, *spots: FloatArray) -> CalibrationOutcome:
     radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
     extras = tuple(Extra((float(u), float(v)), radius_px, PAPERS["blue"]) for u, v in spots)
-    clicks = replace(clicks_on(scene), pixel=clicked_px)
-    frames = frames_of(scene, 5, extras=extras)
+    clicks = replace(click_discs(scene), pixel=clicked_px)
+    frames = make_frames(scene, 5, extras=extras)
     return calibrate_hand(clicks, frames, CAMERA, CalibrationSettings(), DetectionSettings())
 
 
@@ -65,11 +65,11 @@ def test_near_spot_beside_a_marker_is_found(radii: float, told: bool) -> None:
     radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
     u, v = scene.discs_px[0]
     spot = Extra((float(u + radii * radius_px), float(v)), 0.5 * radius_px, PAPERS["blue"])
-    frames = frames_of(scene, 5, extras=(spot,))
+    frames = make_frames(scene, 5, extras=(spot,))
     for one in frames:  # a line of skin between the two
         left, right = (round(u + (radii + by) * radius_px) for by in (-0.85, -0.4))
         one.color_rgb[round(v) - 6 : round(v) + 7, left:right] = SKIN
-    outcome = calibrate_hand(clicks_on(scene), frames, CAMERA, CalibrationSettings(), DetectionSettings())
+    outcome = calibrate_hand(click_discs(scene), frames, CAMERA, CalibrationSettings(), DetectionSettings())
     near = [finding for finding in outcome.verdict.findings if finding.kind == "near_spot"]
     assert [finding.markers for finding in near] == ([("WRIST",)] if told else [])
     assert all(np.linalg.norm(np.array(finding.spot_px) - spot.pixel) < 1.5 for finding in near)

@@ -164,7 +164,7 @@ class FakeContext:
         changed(FakeDeviceList(self._devices), FakeDeviceList({}))
 
 
-def plugged_in(folder: Path, bag: Path) -> FakeContext:
+def plug_in(folder: Path, bag: Path) -> FakeContext:
     """A context with the camera, unless it is unplugged."""
     ob = import_sdk()
     devices = {} if (folder / "unplugged").exists() else {SERIAL: ob.PlaybackDevice(str(bag))}

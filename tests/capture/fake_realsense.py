@@ -90,7 +90,7 @@ class FakeCamera:
         return np.clip(color * gains, 0.0, 255.0).astype(np.uint8)
 
 
-def plugged_in(folder: Path) -> Any:
+def plug_in(folder: Path) -> Any:
     """A context with the camera, which sends pictures from now on; without it while it is unplugged."""
     context = rs.context()
     if (folder / "unplugged").exists():

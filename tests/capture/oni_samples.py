@@ -100,7 +100,7 @@ def find(data: bytes, kind: RecordType, occurrence: int = 0, node: int | None = 
     return found[occurrence]
 
 
-def patched(data: bytes, position: int, new: bytes) -> bytes:
+def patch_bytes(data: bytes, position: int, new: bytes) -> bytes:
     """``data`` with some bytes replaced."""
     return data[:position] + new + data[position + len(new) :]
 

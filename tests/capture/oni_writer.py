@@ -221,7 +221,7 @@ def encode_depth(depth_raw: DepthImage) -> bytes:
     return head + rest.astype(np.uint8).tobytes()
 
 
-def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
+def convert_to_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
     """The frames with their depth in whole millimetres, as the device gives it."""
     for frame in frames:
         depth = frame.depth_raw
@@ -238,7 +238,7 @@ def main() -> None:
         simulate(RecordingSpec(seed=3, seconds=1.0), pictures)
         source = TumFolder(pictures)
         folder.mkdir(parents=True, exist_ok=True)
-        write_oni(folder / "recording.oni", in_millimetres(source.frames()), source.info.camera, simulated=True)
+        write_oni(folder / "recording.oni", convert_to_millimetres(source.frames()), source.info.camera, simulated=True)
         shutil.copy(pictures / CLICKS_FILE, folder)
 
 

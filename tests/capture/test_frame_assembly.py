@@ -27,7 +27,7 @@ from carpus.core.model.errors import CameraBusy, CameraMissing, CameraPermission
 PERIOD_US = 33_333
 
 
-def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:
+def pair_images(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:
     """Times of colour pictures and their depth, fed in this order."""
     pairing = ApproximateTimeSynchronizer[str](PERIOD_US, limit=limit, start_limit=start_limit)
     out = []
@@ -39,8 +39,8 @@ def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) 
 
 def test_synchronizer_skips_colour_without_depth_at_start_only() -> None:
     events = [("color", 0), ("color", 33_000), ("depth", 66_000), ("color", 66_000), ("color", 99_000)]
-    assert paired(events, start_limit=5) == [(66_000, 66_000), (99_000, None)]
-    assert paired(events, start_limit=0)[0] == (0, None)
+    assert pair_images(events, start_limit=5) == [(66_000, 66_000), (99_000, None)]
+    assert pair_images(events, start_limit=0)[0] == (0, None)
 
 
 @given(
@@ -52,7 +52,7 @@ def test_synchronizer_uses_each_colour_once_and_depth_at_most_once(
     color: list[int], depth: list[int], shift: int
 ) -> None:
     events = [("color", int(t)) for t in np.cumsum(color)] + [("depth", int(t) + shift) for t in np.cumsum(depth)]
-    pairs = paired(sorted(events, key=lambda event: event[1]), limit=100)
+    pairs = pair_images(sorted(events, key=lambda event: event[1]), limit=100)
     assert [time_us for time_us, _ in pairs] == [int(t) for t in np.cumsum(color)]
     used = [partner for _, partner in pairs if partner is not None]
     assert len(used) == len(set(used))

@@ -21,7 +21,7 @@ from carpus.core.model.errors import (
     RecordingUnsupported,
     TimesUnordered,
 )
-from tests.capture.oni_samples import CAMERA, HEIGHT, WIDTH, find, patched, records, write_sample
+from tests.capture.oni_samples import CAMERA, HEIGHT, WIDTH, find, patch_bytes, records, write_sample
 
 DEPTH_NODE, IMAGE_NODE = 1, 2
 
@@ -70,12 +70,12 @@ Damage = Callable[[bytes], bytes]
 
 
 def header(position: int, new: bytes) -> Damage:
-    return lambda data: patched(data, position, new)
+    return lambda data: patch_bytes(data, position, new)
 
 
-def in_record(kind: RecordType, offset: int, new: bytes, occurrence: int = 0, node: int | None = None) -> Damage:
+def patch_record(kind: RecordType, offset: int, new: bytes, occurrence: int = 0, node: int | None = None) -> Damage:
     """Replace bytes ``offset`` after the start of a record."""
-    return lambda data: patched(data, find(data, kind, occurrence, node).position + offset, new)
+    return lambda data: patch_bytes(data, find(data, kind, occurrence, node).position + offset, new)
 
 
 def cut_before(kind: RecordType, occurrence: int = 0, extra: int = 0) -> Damage:
@@ -93,7 +93,7 @@ def position_of_property(data: bytes, node: int, name: str) -> tuple[int, int, i
 
 
 def with_property(node: int, name: str, value: bytes) -> Damage:
-    return lambda data: patched(data, position_of_property(data, node, name)[2], value)
+    return lambda data: patch_bytes(data, position_of_property(data, node, name)[2], value)
 
 
 def without_property(node: int, name: str) -> Damage:
@@ -106,37 +106,37 @@ def without_property(node: int, name: str) -> Damage:
     return damage
 
 
-def renamed_property(node: int, name: str, new: bytes) -> Damage:
-    return lambda data: patched(data, position_of_property(data, node, name)[0] + 32, new)
+def rename_property(node: int, name: str, new: bytes) -> Damage:
+    return lambda data: patch_bytes(data, position_of_property(data, node, name)[0] + 32, new)
 
 
 HUGE = struct.pack("<I", 0x7FFFFFFF)
 ADDED_CODEC = 28 + 4 + len(b"Image\0") + 4
 DAMAGED = {
-    "record fields beyond the buffer": in_record(RecordType.NEW_DATA, 12, HUGE, 2),
-    "property name outside ASCII": renamed_property(IMAGE_NODE, "xnMirror", b"xnM\xefrror"),
-    "name without its end": in_record(RecordType.NODE_ADDED, 28, HUGE),
-    "property larger than its record": lambda data: patched(
+    "record fields beyond the buffer": patch_record(RecordType.NEW_DATA, 12, HUGE, 2),
+    "property name outside ASCII": rename_property(IMAGE_NODE, "xnMirror", b"xnM\xefrror"),
+    "name without its end": patch_record(RecordType.NODE_ADDED, 28, HUGE),
+    "property larger than its record": lambda data: patch_bytes(
         data, position_of_property(data, 1, "xnFOV")[1], b"\x00\xff\x00\x00"
     ),
     "no end": cut_before(RecordType.END),
     "cut inside a picture": cut_before(RecordType.NEW_DATA, 5, 60),
     "cut inside a record header": cut_before(RecordType.NEW_DATA, 5, 11),
     "cut before the data": cut_before(RecordType.DATA_BEGIN),
-    "broken chain": in_record(RecordType.NEW_DATA, 0, b"XXXX", 3),
-    "unknown record": in_record(RecordType.NEW_DATA, 4, b"\x63\x00\x00\x00", 3),
-    "unknown stream": in_record(RecordType.NEW_DATA, 8, b"\x09\x00\x00\x00", 3),
-    "stream of another number": in_record(RecordType.NEW_DATA, 8, b"\x00\x00\x00\x00", 3),
-    "payload too long": in_record(RecordType.NEW_DATA, 16, b"\x00\x40\x00\x00", 3),
-    "payload beyond the buffer": in_record(RecordType.NEW_DATA, 16, HUGE, 3),
-    "payload after a property": in_record(RecordType.INT_PROPERTY, 16, b"\x04\x00\x00\x00"),
-    "picture number 0": in_record(RecordType.NEW_DATA, 36, bytes(4)),
+    "broken chain": patch_record(RecordType.NEW_DATA, 0, b"XXXX", 3),
+    "unknown record": patch_record(RecordType.NEW_DATA, 4, b"\x63\x00\x00\x00", 3),
+    "unknown stream": patch_record(RecordType.NEW_DATA, 8, b"\x09\x00\x00\x00", 3),
+    "stream of another number": patch_record(RecordType.NEW_DATA, 8, b"\x00\x00\x00\x00", 3),
+    "payload too long": patch_record(RecordType.NEW_DATA, 16, b"\x00\x40\x00\x00", 3),
+    "payload beyond the buffer": patch_record(RecordType.NEW_DATA, 16, HUGE, 3),
+    "payload after a property": patch_record(RecordType.INT_PROPERTY, 16, b"\x04\x00\x00\x00"),
+    "picture number 0": patch_record(RecordType.NEW_DATA, 36, bytes(4)),
     "no size": without_property(IMAGE_NODE, oni.MAP_OUTPUT_MODE),
     "absurd size": with_property(IMAGE_NODE, oni.MAP_OUTPUT_MODE, struct.pack("<III", 60000, 60000, 30)),
-    "size property of the wrong length": lambda data: patched(
+    "size property of the wrong length": lambda data: patch_bytes(
         data, position_of_property(data, IMAGE_NODE, oni.MAP_OUTPUT_MODE)[1], b"\x0b"
     ),
-    "two streams of one number": in_record(RecordType.NODE_ADDED, 8, b"\x01\x00\x00\x00", 1),
+    "two streams of one number": patch_record(RecordType.NODE_ADDED, 8, b"\x01\x00\x00\x00", 1),
 }
 
 
@@ -152,13 +152,13 @@ def test_oni_contents_damaged_file_raises(tmp_path: Path, sound: bytes, damage: 
 
 UNSUPPORTED = {
     "newer version": header(4, b"\x02"),
-    "unknown codec": in_record(RecordType.NODE_ADDED, ADDED_CODEC, b"WHAT", 1),
-    "null codec": in_record(RecordType.NODE_ADDED, ADDED_CODEC, bytes(4), 1),
-    "codec that writes without bounds": in_record(RecordType.NODE_ADDED, ADDED_CODEC, b"Im8z", 1),
+    "unknown codec": patch_record(RecordType.NODE_ADDED, ADDED_CODEC, b"WHAT", 1),
+    "null codec": patch_record(RecordType.NODE_ADDED, ADDED_CODEC, bytes(4), 1),
+    "codec that writes without bounds": patch_record(RecordType.NODE_ADDED, ADDED_CODEC, b"Im8z", 1),
     "cropped": with_property(DEPTH_NODE, oni.CROPPING, struct.pack("<IHHHH", 1, 0, 0, 32, 24)),
     "colour as YUV": with_property(IMAGE_NODE, oni.PIXEL_FORMAT_2, struct.pack("<Q", PixelFormat.YUV422)),
     "unknown pixel format": with_property(IMAGE_NODE, oni.PIXEL_FORMAT_2, struct.pack("<Q", 999)),
-    "no colour": in_record(RecordType.NODE_ADDED, ADDED_CODEC - 4, struct.pack("<I4s", NodeType.IR, b"JPEG"), 1),
+    "no colour": patch_record(RecordType.NODE_ADDED, ADDED_CODEC - 4, struct.pack("<I4s", NodeType.IR, b"JPEG"), 1),
 }
 
 
@@ -173,7 +173,7 @@ def test_oni_contents_other_file_raises(tmp_path: Path, data: bytes) -> None:
 
 
 def test_oni_contents_unordered_times_raise(tmp_path: Path, sound: bytes) -> None:
-    backwards = in_record(RecordType.NEW_DATA, 28, struct.pack("<Q", 1000), 2, IMAGE_NODE)(sound)
+    backwards = patch_record(RecordType.NEW_DATA, 28, struct.pack("<Q", 1000), 2, IMAGE_NODE)(sound)
     fault = check(tmp_path, backwards)
     assert isinstance(fault, TimesUnordered)
     assert fault.detail == "image frame 3"

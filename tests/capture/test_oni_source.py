@@ -32,7 +32,7 @@ from tests.capture.oni_samples import (
     color_picture,
     depth_picture,
     find,
-    patched,
+    patch_bytes,
     rebuilt,
     with_small_color,
     write_sample,
@@ -47,7 +47,7 @@ def play(path: Path) -> tuple[list[Frame], list[CarpusFault]]:
     return frames, notices
 
 
-def changed(folder: Path, count: int, change: Callable[[bytes], bytes], **how: Any) -> Path:
+def change_sample(folder: Path, count: int, change: Callable[[bytes], bytes], **how: Any) -> Path:
     """A sample whose bytes are not as they were written."""
     path = write_sample(folder / "a.oni", count, **how)
     path.write_bytes(change(path.read_bytes()))
@@ -114,7 +114,7 @@ def test_oni_source_mirrored_images_are_flipped(tmp_path: Path) -> None:
 
 
 def test_oni_source_small_colour_is_enlarged(tmp_path: Path) -> None:
-    path = changed(tmp_path, 3, with_small_color)
+    path = change_sample(tmp_path, 3, with_small_color)
     small = CAMERA.__class__(26.25, 26.25, 15.5, 11.5, WIDTH // 2, HEIGHT // 2)
     write_camera_info(sidecar_path(path), small, registered=True)
     notices: list[CarpusFault] = []
@@ -140,18 +140,18 @@ def test_oni_source_incompatible_sizes_raise(tmp_path: Path) -> None:
         return fields, payload
 
     with pytest.raises(RecordingUnsupported) as caught:
-        OniSource(changed(tmp_path, 2, lambda data: rebuilt(data, narrow_depth)))
+        OniSource(change_sample(tmp_path, 2, lambda data: rebuilt(data, narrow_depth)))
     assert caught.value.detail == "colour 64x48, depth 60x48"
 
 
-def damaged_payload(data: bytes, node: int, occurrence: int) -> bytes:
+def damage_payload(data: bytes, node: int, occurrence: int) -> bytes:
     payload = find(data, RecordType.NEW_DATA, occurrence, node).payload
     noise = np.random.default_rng(3).integers(0, 256, payload.stop - payload.start, np.uint8).tobytes()
-    return patched(data, payload.start, noise)
+    return patch_bytes(data, payload.start, noise)
 
 
 def test_oni_source_damaged_depth_leaves_frame_without_depth(tmp_path: Path) -> None:
-    frames, notices = play(changed(tmp_path, 6, lambda data: damaged_payload(data, 1, 3)))
+    frames, notices = play(change_sample(tmp_path, 6, lambda data: damage_payload(data, 1, 3)))
     assert [frame.depth_raw is not None for frame in frames] == [True, True, True, False, True, True]
     assert [fault.detail for fault in notices] == ["1 of 6 depth"]
 
@@ -164,7 +164,7 @@ def test_oni_source_time_gaps_are_counted(tmp_path: Path) -> None:
         return fields, payload
 
     longer = np.array([10**9], "<u8").tobytes()
-    path = changed(tmp_path, 6, lambda data: patched(rebuilt(data, late), 12, longer))
+    path = change_sample(tmp_path, 6, lambda data: patch_bytes(rebuilt(data, late), 12, longer))
     assert [frame.dropped_before for frame in play(path)[0]] == [0, 0, 0, 2, 0, 0]
 
 

@@ -39,7 +39,7 @@ class OpenContext(Context):
 NO_DEVICE = 6
 
 
-def in_process(body: str, *arguments: str) -> Any:
+def run_in_process(body: str, *arguments: str) -> Any:
     """Run ``body`` with the library at hand; what it puts into ``result``."""
     program = f"{PRELUDE}result = None\n{body}\nprint(json.dumps(result))"
     done = subprocess.run(
@@ -75,7 +75,7 @@ with OpenContext() as library:
         except OpenNI2Error as failure:
             result.append([failure.call, failure.status, failure.reason])
 """
-    devices, default, missing = in_process(body)
+    devices, default, missing = run_in_process(body)
     assert devices == 0
     assert default[0] == missing[0] == "oniDeviceOpen"
     assert missing[1] == NO_DEVICE
@@ -92,7 +92,7 @@ with OpenContext() as library:
         except ValueError:
             result.append("kept away")
 """
-    assert in_process(body, "prüfung.oni", "手.oni", "a" * 256) == ["kept away"] * 3
+    assert run_in_process(body, "prüfung.oni", "手.oni", "a" * 256) == ["kept away"] * 3
 
 
 def test_openni2_recording_plays_in_lockstep(tmp_path: Path) -> None:
@@ -116,7 +116,7 @@ with OpenContext() as library:
               streams[1].get_value(NUMBER_OF_FRAMES, c_int()), streams[1].set_int(StreamProperty.MIRRORING, 0)]
     device.close()
 """
-    seen, mode, can_register, view, count, settable = in_process(body, str(path))
+    seen, mode, can_register, view, count, settable = run_in_process(body, str(path))
     assert [row[:2] for row in seen] == [[sensor, number] for number in (1, 2, 3, 4) for sensor in (2, 3)]
     assert [row[2] for row in seen[:2]] == [10000, 13000]
     assert {(row[0], row[3], row[4]) for row in seen} == {

@@ -55,7 +55,7 @@ def camera(
     tmp_path: Path, bag: Path, notices: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[ProcessCamera]:
     monkeypatch.chdir(tmp_path)
-    context = partial(fake_orbbec.plugged_in, tmp_path, bag)
+    context = partial(fake_orbbec.plug_in, tmp_path, bag)
     source = replace(orbbec.KIND, make_context=context).open(notice=notices.append)
     yield source
     source.close()
@@ -92,14 +92,14 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, notices: list[Carp
     assert notices[0].detail == "unplugged"
 
 
-def found_driver() -> Finding:
+def find_driver() -> Finding:
     found = check_driver()
     assert found is not None
     return found
 
 
 def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert found_driver().state == "good"
+    assert find_driver().state == "good"
     assert orbbec.check_firmware_and_usb({"usb": "2.1"})[0].state == "warning"
     (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.udev_rules)
     assert check_udev_rules(orbbec.KIND, (tmp_path,)).state == "good"
@@ -109,7 +109,7 @@ def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
     monkeypatch.setattr("importlib.metadata.version", missing)
     assert check_driver(is_needed=False) is None
-    assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
+    assert find_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     with pytest.raises(ExtraMissing) as notices:
         open_camera(f"orbbec:{SERIAL}")
     assert format_fault_line(notices.value).endswith("-m pip install --no-deps pyorbbecsdk2”. (C-001)")

@@ -109,7 +109,7 @@ def test_realsense_recording_truncated_raises(take: Path, tmp_path: Path) -> Non
 
 @pytest.fixture
 def camera(tmp_path: Path, notices: list[CarpusFault]) -> Iterator[ProcessCamera]:
-    context = partial(fake_realsense.plugged_in, tmp_path)
+    context = partial(fake_realsense.plug_in, tmp_path)
     source = replace(realsense.KIND, make_context=context).open(notice=notices.append)
     yield source
     source.close()
@@ -206,7 +206,7 @@ def test_color_controller_finds_matching_settings(true: tuple[float, float], slo
 
 
 def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    context = partial(fake_realsense.plugged_in, tmp_path)
+    context = partial(fake_realsense.plug_in, tmp_path)
     monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, make_context=context))
     findings = {each.name: each for each in check_open_camera("realsense", 0.5)}
     assert list(findings) == ["Frames", "Depth registration", "Mirror", "Clock", "Firmware", "USB"]

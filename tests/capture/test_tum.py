@@ -119,7 +119,7 @@ def flip_a_bit(folder: Path) -> None:
     path.write_bytes(bytes(data))
 
 
-def swapped(name: str) -> Spoiler:
+def swap_files(name: str) -> Spoiler:
     """The last two lines of a list in each other's place."""
     return lambda folder: edit(folder / name, lambda lines: [*lines[:-2], lines[-1], lines[-2]])
 
@@ -153,13 +153,13 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
     "garbage line": (more("rgb.txt", "hello there"), RecordingUnreadable, "line 8"),
     "line without a name": (more("rgb.txt", "1305031109.0"), RecordingUnreadable, "line 8"),
     "time not a number": (more("depth.txt", "nan x.png"), RecordingUnreadable, "line 7"),
-    "times swapped": (swapped("rgb.txt"), TimesUnordered, "line 7"),
+    "times swapped": (swap_files("rgb.txt"), TimesUnordered, "line 7"),
     "a line leads to a drive": (more("rgb.txt", "1305031109.0 C:\\a.png"), RecordingUnreadable, "out of the folder"),
     "a unit of depth that is none": (
         lambda f: (camera_file(OWN_CAMERA)(f), edit(f / "camera_info.yaml", lambda t: [*t, "depth_unit_m: 1"])),
         CameraFileUnreadable, "depth_unit_m",
     ),
-    "depth times swapped": (swapped("depth.txt"), TimesUnordered, "line 6"),
+    "depth times swapped": (swap_files("depth.txt"), TimesUnordered, "line 6"),
     "colour picture gone": (lambda f: sorted((f / "rgb").iterdir())[3].unlink(), FrameDamaged, "missing"),
     "depth picture gone": (lambda f: sorted((f / "depth").iterdir())[3].unlink(), FrameDamaged, "missing"),
     "colour picture cut": (lambda f: cut(f, "rgb", 0.5), FrameDamaged, "truncated"),

@@ -29,7 +29,7 @@ CASES = tuple(name + trouble for name in SPECS for trouble in ("", IN_TROUBLE))
 MOST_FRAMES = 32
 
 
-def troubled(frame: Frame, clicks_px: FloatArray) -> Frame:
+def trouble_frame(frame: Frame, clicks_px: FloatArray) -> Frame:
     """Every third picture with a disc once more where there is none, and the next disc behind what lies beside it."""
     if frame.index < 16 or frame.index % 3 or frame.depth_raw is None:  # those before are of the calibration
         return frame
@@ -42,21 +42,21 @@ def troubled(frame: Frame, clicks_px: FloatArray) -> Frame:
     return replace(frame, color_rgb=color, depth_raw=depth)
 
 
-def damaged(frames: list[Frame], clicks_px: FloatArray) -> list[Frame]:
+def damage_frames(frames: list[Frame], clicks_px: FloatArray) -> list[Frame]:
     """Some pictures without depth, some gone, one of nothing, some with false discs and a hidden one."""
     dark = np.zeros_like(frames[0].color_rgb)
-    kept = [troubled(frame, clicks_px) for frame in frames if not 25 <= frame.index < 28]
+    kept = [trouble_frame(frame, clicks_px) for frame in frames if not 25 <= frame.index < 28]
     kept = [replace(frame, depth_raw=None) if frame.index % 11 == 10 else frame for frame in kept]
     return [replace(frame, color_rgb=dark) if frame.index == 23 else frame for frame in kept]
 
 
-def tracked(folder: Path, *, in_trouble: bool) -> dict[str, np.ndarray]:
+def track_recording(folder: Path, *, in_trouble: bool) -> dict[str, np.ndarray]:
     """Status, readings and test statistic of each frame, and the angles looked back at; and a sum of the pictures."""
     clicks = read_clicks(folder / CLICKS_FILE)
     frames = list(islice(TumFolder(folder).frames(), MOST_FRAMES))
     seen = zlib.crc32(b"".join(frame.color_rgb.tobytes() + _bytes(frame) for frame in frames))
     if in_trouble:
-        frames = damaged(frames, clicks.pixel)
+        frames = damage_frames(frames, clicks.pixel)
     camera, settings = TumFolder(folder).info.camera, TrackSettings()
     opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
     outcome = calibrate_hand(clicks, opening, camera, settings.calibration, settings.detection, None)
@@ -92,7 +92,10 @@ def main() -> None:
     out = {}
     for case in CASES:
         folder = render_cached(SPECS[case.removesuffix(IN_TROUBLE)])
-        out |= {f"{case}/{key}": value for key, value in tracked(folder, in_trouble=case.endswith(IN_TROUBLE)).items()}
+        out |= {
+            f"{case}/{key}": value
+            for key, value in track_recording(folder, in_trouble=case.endswith(IN_TROUBLE)).items()
+        }
     np.savez_compressed(PLACE, **out)
     print(f"{PLACE.name}: {PLACE.stat().st_size} bytes")
 

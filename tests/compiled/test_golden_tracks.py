@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.compiled.golden_tracks import CASES, IN_TROUBLE, PLACE, SPECS, tracked
+from tests.compiled.golden_tracks import CASES, IN_TROUBLE, PLACE, SPECS, track_recording
 from tests.rendered import Rendered
 
 NEAREST, NEAREST_OF_OTHER_PICTURES = 1e-6, 0.2
@@ -15,7 +15,7 @@ which moves a hand in trouble by degrees."""
 
 @pytest.mark.parametrize("case", CASES)
 def test_recording_tracked_again_gives_same_numbers(case: str, rendered: Rendered) -> None:
-    found = tracked(rendered(SPECS[case.removesuffix(IN_TROUBLE)]), in_trouble=case.endswith(IN_TROUBLE))
+    found = track_recording(rendered(SPECS[case.removesuffix(IN_TROUBLE)]), in_trouble=case.endswith(IN_TROUBLE))
     with np.load(PLACE) as file:
         expected = {key: file[f"{case}/{key}"] for key in found}
     nearest = NEAREST if found.pop("pictures") == expected["pictures"] else NEAREST_OF_OTHER_PICTURES

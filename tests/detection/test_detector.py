@@ -232,7 +232,7 @@ def test_paper_mask_is_opencvs_backprojection() -> None:
     )
 
 
-def taken_apart(is_blob: NDArray[np.bool_], radius_px: float) -> FloatArray:
+def separate_blobs(is_blob: NDArray[np.bool_], radius_px: float) -> FloatArray:
     """Centres (P, 2) of the discs that are found of one blob."""
     return find_components(is_blob.astype(np.uint8), lambda at: np.full(len(at), radius_px)).centre_px
 
@@ -249,7 +249,7 @@ def test_detector_long_blob_is_separated(apart_radii: float, bar_radii: float, p
     else:
         is_blob = np.hypot(u - 60, v - 60) <= radius_px
         is_blob |= np.hypot(u - 60 - apart_radii * radius_px, v - 60) <= radius_px
-    assert len(taken_apart(is_blob, radius_px)) == parts
+    assert len(separate_blobs(is_blob, radius_px)) == parts
 
 
 def test_detector_empty_image_gives_no_blobs() -> None:

@@ -17,12 +17,12 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from tests.measures.ways import way
 from tests.moments import with_moment
-from tests.session.samples import begun, make_calibration, make_frame, make_header, time_of, written_once
+from tests.session.samples import begin_session, compute_time, make_calibration, make_frame, make_header, write_once
 
 FRAMES = 23
 
 
-def stored(
+def store_session(
     folder: Path, protocol: MarkerProtocol = WRIST6, frames: int = FRAMES, name: str = "one", moving: bool = False
 ) -> Path:
     """A session of the left hand at 30 frames a second; every fifth frame is lost; it has a repetition and a note.
@@ -32,11 +32,11 @@ def stored(
     return _session(folder / f"{name}.h5", protocol, frames, moving)
 
 
-@written_once
+@write_once
 def _session(path: Path, protocol: MarkerProtocol, frames: int, moving: bool) -> Path:
     exercise = "WRIST_FE" if protocol == WRIST6 else "FIST_COMPOSITE"
     parameters = '{"source": {"name": "clinic-cam-7", "serial": "A00365"}, "settings": {"a": 1}}'
-    with begun(path, replace(make_header(protocol), exercise=exercise, parameters=parameters)) as writer:
+    with begin_session(path, replace(make_header(protocol), exercise=exercise, parameters=parameters)) as writer:
         for row in range(frames):
             frame = make_frame(row, protocol)
             place = np.abs(frame.marker_position_cam_m) * 0.1 + (0.0, 0.0, 0.6)
@@ -46,8 +46,8 @@ def _session(path: Path, protocol: MarkerProtocol, frames: int, moving: bool) ->
                 turned = with_moment(frame, angles_rad=angles, rotation_w2_w0=facing_camera(protocol))
                 frame = replace(turned, status=TrackStatus.TRACKED)
             writer.append(replace(frame, marker_position_cam_m=place, dropped_before=0))
-        writer.add_event(time_of(3), "repetition", "1")
-        writer.add_event(time_of(7), "note", "Mrs Miller, pain")
+        writer.add_event(compute_time(3), "repetition", "1")
+        writer.add_event(compute_time(7), "note", "Mrs Miller, pain")
     return path
 
 
@@ -61,12 +61,12 @@ def stopping(folder: Path) -> Path:
     return _stopping(folder / "stopping.h5")
 
 
-@written_once
+@write_once
 def _stopping(path: Path) -> Path:
     up, hold = way([(25.0, 0.8), (0.0, 0.6), (25.0, 0.8)]), np.ones(30)
     one = np.concatenate((0.0 * hold, up, 50.0 * hold, 50.0 - way([(50.0, 1.0)])))
     angle = np.radians(np.concatenate((np.tile(one, 3), 0.0 * hold)))
-    with begun(path, replace(make_header(WRIST6), exercise="WRIST_FE")) as writer:
+    with begin_session(path, replace(make_header(WRIST6), exercise="WRIST_FE")) as writer:
         for row, flexion in enumerate(angle.tolist()):
             frame = with_moment(
                 make_frame(row, WRIST6),
@@ -84,18 +84,18 @@ def _stopping(path: Path) -> Path:
                     status=TrackStatus.TRACKED,
                 )
             )  # fmt: skip
-        writer.add_event(time_of(7), "note", "stops on the way")
+        writer.add_event(compute_time(7), "note", "stops on the way")
         writer.write_repetitions(compute_repetitions(writer.read_session()))
     return path
 
 
-def take_of(session: Session, name: str = "one") -> ExportItem:
+def build_take(session: Session, name: str = "one") -> ExportItem:
     return ExportItem(session, compute_session_results(session), name, build_provenance(session))
 
 
 def wrist_take(folder: Path) -> ExportItem:
-    return take_of(read_session(stored(folder)))
+    return build_take(read_session(store_session(folder)))
 
 
 def hand_take(folder: Path) -> ExportItem:
-    return take_of(read_session(stored(folder, HAND21)))
+    return build_take(read_session(store_session(folder, HAND21)))

@@ -19,7 +19,7 @@ from carpus.core.model.errors import ReferenceUnreadable
 from carpus.core.model.types import TrackStatus
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
-from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
+from tests.formats.takes import build_take, hand_take, stopping, store_session, wrist_take
 
 pytestmark = pytest.mark.filterwarnings("ignore:No analog data found in file")
 
@@ -78,7 +78,7 @@ def test_c3d_second_reader_agrees(tmp_path: Path) -> None:
 
 
 def test_c3d_repetitions_are_events(tmp_path: Path) -> None:
-    take = take_of(read_session(stopping(tmp_path)))
+    take = build_take(read_session(stopping(tmp_path)))
     (path,) = c3d_write.write(take, tmp_path / "out")
     event = ezc3d.c3d(str(path))["parameters"]["EVENT"]
     said = list(zip(event["LABELS"]["value"], event["DESCRIPTIONS"]["value"], event["TIMES"]["value"][1], strict=True))
@@ -105,7 +105,7 @@ def of_rows(session: Session, rows: np.ndarray, dropped_before: np.ndarray) -> S
 
 
 def test_c3d_one_hour_keeps_last_frame(tmp_path: Path) -> None:
-    session = read_session(stored(tmp_path, frames=10))
+    session = read_session(store_session(tmp_path, frames=10))
     count, times = 70_001, 12
     rows = np.arange(count) % 10
     repeated = of_rows(session, rows, np.zeros(count, dtype=np.int64))
@@ -116,7 +116,7 @@ def test_c3d_one_hour_keeps_last_frame(tmp_path: Path) -> None:
         markers=replace(repeated.markers, position_cam_m=wandering_m),
         events=session.events[:1] * (300 - times),
     )
-    take = ExportItem(long, take_of(session).results, "long", take_of(session).provenance)
+    take = ExportItem(long, build_take(session).results, "long", build_take(session).provenance)
     (path,) = c3d_write.write(take, tmp_path / "out")
     with path.open("rb") as file:
         reader = c3d.Reader(file)
@@ -129,7 +129,7 @@ def test_c3d_one_hour_keeps_last_frame(tmp_path: Path) -> None:
 
 
 def test_c3d_without_frames_is_written(tmp_path: Path) -> None:
-    take = take_of(read_session(stored(tmp_path, frames=0)))
+    take = build_take(read_session(store_session(tmp_path, frames=0)))
     (path,) = c3d_write.write(take, tmp_path / "out")
     assert path.stat().st_size % 512 == 0
 

@@ -19,15 +19,15 @@ from carpus.core.model.hand.protocols import HAND21
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.writer import SessionWriter
-from tests.formats.takes import stored
-from tests.session.samples import begun, make_header
+from tests.formats.takes import store_session
+from tests.session.samples import begin_session, make_header
 
 export_sessions = export.export_sessions
 
 
 @pytest.mark.parametrize("deidentified", [False, True])
 def test_export_all_formats_reimport_gives_same_charts(deidentified: bool, tmp_path: Path) -> None:
-    path = stored(tmp_path, HAND21)
+    path = store_session(tmp_path, HAND21)
     done = export_sessions([ExportRequest.from_file(path)], tmp_path / "out", list(FORMATS), deidentified=deidentified)
     assert not done.refused
     (copy,) = (tmp_path / "out").glob("*.h5")
@@ -50,7 +50,7 @@ def test_export_to_read_only_disk_reports_each_session(tmp_path: Path, monkeypat
     def refuses(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, "Read-only file system")
 
-    wanted = [ExportRequest.from_file(stored(tmp_path, name=name)) for name in ("one", "two")]
+    wanted = [ExportRequest.from_file(store_session(tmp_path, name=name)) for name in ("one", "two")]
     (tmp_path / "out").mkdir()
     monkeypatch.setattr(Path, "unlink", refuses)
     monkeypatch.setattr(SessionWriter, "create", lambda path, *_: (_ for _ in ()).throw(OutputNotWritable(path)))
@@ -60,7 +60,7 @@ def test_export_to_read_only_disk_reports_each_session(tmp_path: Path, monkeypat
 
 
 def test_export_deidentified_contains_no_identity(tmp_path: Path) -> None:
-    path = stored(tmp_path)
+    path = store_session(tmp_path)
     export_sessions([ExportRequest.from_file(path)], tmp_path / "out", list(FORMATS), deidentified=True)
     header = read_session(path).header
     secret = ["Linden", "Miller", "clinic-cam", "A00365", "2026-11-13", "20261113", header.session_id, "13050311"]
@@ -78,7 +78,7 @@ def test_export_deidentified_cameras_are_alike(tmp_path: Path) -> None:
         Camera(531.2, 529.8, 312.4, 247.1, distortion=(0.03, -0.1, 0.001, 0.002, 0.0)),
         Camera(523.9, 526.1, 325.7, 236.4, distortion=(0.05, -0.2, 0.0, 0.001, 0.1)),
     )
-    path = stored(tmp_path)
+    path = store_session(tmp_path)
     session, said = read_session(path), []
     place = session.markers.position_cam_m[0]
     for camera in cameras:
@@ -100,7 +100,7 @@ def test_export_deidentified_patient_consistent_days_counted(tmp_path: Path) -> 
         header = make_header(session_id=uuid.uuid4())
         header = replace(header, recorded=f"2026-11-{day}T09:00:00+01:00", recording_id=str(uuid.uuid4()))
         paths.append(tmp_path / f"day{day}.h5")
-        begun(paths[-1], header, 1).close()
+        begin_session(paths[-1], header, 1).close()
     export_sessions([ExportRequest.from_file(path) for path in paths], tmp_path / "out", ["h5"], deidentified=True)
     found = [read_session(path).header for path in sorted((tmp_path / "out").glob("*.h5"))]
     assert len({header.subject_id for header in found}) == 1
@@ -109,7 +109,7 @@ def test_export_deidentified_patient_consistent_days_counted(tmp_path: Path) -> 
 
 
 def test_export_never_overwrites_and_continues(tmp_path: Path) -> None:
-    good, missing = stored(tmp_path), tmp_path / "missing.h5"
+    good, missing = store_session(tmp_path), tmp_path / "missing.h5"
     heard: list[tuple[int, int]] = []
     done = export_sessions(
         [ExportRequest.from_file(missing), ExportRequest.from_file(good)],
@@ -130,7 +130,7 @@ def test_export_never_overwrites_and_continues(tmp_path: Path) -> None:
 def test_export_equal_names_get_numbers(tmp_path: Path) -> None:
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
-    paths = [stored(tmp_path / "a"), stored(tmp_path / "b")]
+    paths = [store_session(tmp_path / "a"), store_session(tmp_path / "b")]
     export_sessions([ExportRequest.from_file(path) for path in paths], tmp_path / "out", ["c3d"])
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"one.c3d", "one-2.c3d"}
 
@@ -138,7 +138,10 @@ def test_export_equal_names_get_numbers(tmp_path: Path) -> None:
 def test_export_cancelled_stops(tmp_path: Path) -> None:
     asked = iter((False, True))
     done = export_sessions(
-        [ExportRequest.from_file(stored(tmp_path))], tmp_path / "out", ["mot", "trc"], cancelled=lambda: next(asked)
+        [ExportRequest.from_file(store_session(tmp_path))],
+        tmp_path / "out",
+        ["mot", "trc"],
+        cancelled=lambda: next(asked),
     )
     assert done.cancelled
     assert {path.suffix for path in done.files} == {".mot", ".json", ".txt"}

@@ -13,7 +13,7 @@ from fhirclient.models.bundle import Bundle
 from carpus.core.formats import fhir
 from carpus.core.model.types import SIMULATED
 from carpus.core.results.measure import summarise_values
-from tests.formats.takes import hand_take, take_of, wrist_take
+from tests.formats.takes import build_take, hand_take, wrist_take
 from tests.ui.fakes import session as flexing
 
 
@@ -27,7 +27,7 @@ def read_bundle(path: Path) -> dict[str, list]:  # type: ignore[type-arg]
 
 @pytest.mark.parametrize("protocol", ["wrist6", "hand21"])
 def test_bundle_of_a_session_holds_each_measure_once(tmp_path: Path, protocol: str) -> None:
-    take = take_of(flexing()) if protocol == "wrist6" else hand_take(tmp_path)
+    take = build_take(flexing()) if protocol == "wrist6" else hand_take(tmp_path)
     resources = read_bundle(fhir.write(take, tmp_path / "out")[0])
 
     rows = [row for row in take.results.measures if row.group in ("range", "task")]

@@ -17,7 +17,7 @@ from carpus.core.model.hand.protocols import HAND21, WRIST6
 from carpus.core.session.reader import read_session
 from carpus.ui.kit.table_file import OFFERED_REGIONS, regional_table_form, save_table
 from tests.commands import Command
-from tests.formats.takes import stored, take_of
+from tests.formats.takes import build_take, store_session
 
 
 def cells(path: Path, form: TableDialect) -> list[list[str]]:
@@ -47,10 +47,10 @@ def as_python(cell: str) -> float | str:
     [("FOREARM_PS", "supination_from_thumb_up", -90.0), ("WRIST_FE", "rotation_from_start", 0.0)],
 )
 def test_spreadsheet_forearm_counts_clinically(exercise: str, name: str, off_deg: float, tmp_path: Path) -> None:
-    session = read_session(stored(tmp_path, WRIST6))
+    session = read_session(store_session(tmp_path, WRIST6))
     session = replace(session, header=replace(session.header, exercise=exercise))
     start_deg = math.degrees(session.calibration.start_angles_rad[2])
-    take = take_of(session, "s")
+    take = build_take(session, "s")
     write(take, tmp_path / "plain")
     write(replace(take, dialect=regional_table_form("en_GB")), tmp_path / "sheet")
     plain = cells(tmp_path / "plain" / "s.wrist.for-programs.csv", MACHINE_DIALECT)
@@ -64,7 +64,7 @@ def test_spreadsheet_forearm_counts_clinically(exercise: str, name: str, off_deg
 
 @pytest.mark.parametrize("region", OFFERED_REGIONS)
 def test_spreadsheet_of_region_reads_same_numbers(region: str, tmp_path: Path) -> None:
-    take, form = take_of(read_session(stored(tmp_path, HAND21)), "s"), regional_table_form(region)
+    take, form = build_take(read_session(store_session(tmp_path, HAND21)), "s"), regional_table_form(region)
     plain = [path for path in write(take, tmp_path / "plain") if path.suffix == ".csv"]
     assert all(path.name.endswith(".for-programs.csv") for path in plain)
     numbers = 0
@@ -94,7 +94,7 @@ def test_region_has_its_dialect(region: str, form: TableDialect) -> None:
 
 
 def test_export_command_writes_regional_tables(tmp_path: Path, command: Command) -> None:
-    path = stored(tmp_path)
+    path = store_session(tmp_path)
     done = command("export", path, "--region", "de_DE", "--output", tmp_path / "out")
     assert done.code == 0
     (table,) = (tmp_path / "out").glob("*.measures.csv")

@@ -17,11 +17,11 @@ from carpus.core.model.errors import OutputExists
 from carpus.core.model.hand.protocols import HAND21, WRIST_ANGLES
 from carpus.core.model.types import TrackStatus
 from carpus.core.session.reader import read_session
-from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
+from tests.formats.takes import build_take, hand_take, stopping, store_session, wrist_take
 from tests.ui.fakes import session as flexing
 
 
-def rows_of(path: Path) -> list[dict[str, str]]:
+def read_rows(path: Path) -> list[dict[str, str]]:
     with path.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
@@ -37,7 +37,7 @@ def test_csv_wrist_one_row_per_frame(tmp_path: Path) -> None:
         *(f"one.{name}.for-programs.csv" for name in ("wrist", "markers", "events", "repetitions", "measures")),
         "one.csv.json",
     }
-    rows, motion = rows_of(tmp_path / "out" / "one.wrist.for-programs.csv"), take.session.motion
+    rows, motion = read_rows(tmp_path / "out" / "one.wrist.for-programs.csv"), take.session.motion
     assert len(rows) == len(take.session)
     for k, name in enumerate(WRIST_ANGLES):
         assert np.allclose(
@@ -48,7 +48,7 @@ def test_csv_wrist_one_row_per_frame(tmp_path: Path) -> None:
     assert [row["status"] for row in rows] == [TrackStatus(s).name.lower() for s in take.session.status]
     lost = [row for row in rows if row["status"] == "lost"]
     assert {lost[0][name] for name in lost[0] if name not in ("timestamp_s", "status")} == {""}
-    events = rows_of(tmp_path / "out" / "one.events.for-programs.csv")
+    events = read_rows(tmp_path / "out" / "one.events.for-programs.csv")
     assert [(event["kind"], event["text"]) for event in events] == [("repetition", "1"), ("note", "Mrs Miller, pain")]
     assert float(events[0]["since_start_s"]) == pytest.approx(0.1, abs=1e-5)
 
@@ -57,11 +57,11 @@ def test_csv_joints_and_markers_one_row_each(tmp_path: Path) -> None:
     take = hand_take(tmp_path)
     csv_tables.write(take, tmp_path / "out")
     session = take.session
-    joints = rows_of(tmp_path / "out" / "one.joints.for-programs.csv")
+    joints = read_rows(tmp_path / "out" / "one.joints.for-programs.csv")
     names = session.header.joint_names
     assert len(joints) == len(session) * len(names)
     assert [row["joint"] for row in joints[: len(names)]] == list(names)
-    markers = rows_of(tmp_path / "out" / "one.markers.for-programs.csv")
+    markers = read_rows(tmp_path / "out" / "one.markers.for-programs.csv")
     assert len(markers) == len(session) * 21
     motion, seen = session.motion, session.markers
     for rows, column, values in (
@@ -131,7 +131,7 @@ def test_mot_has_angles_in_degrees(tmp_path: Path) -> None:
 
 
 def test_json_measures_are_standard_json(tmp_path: Path) -> None:
-    take = take_of(flexing())
+    take = build_take(flexing())
     (path,) = json_measures.write(take, tmp_path / "out")
 
     def refuse(text: str) -> None:
@@ -147,7 +147,7 @@ def test_json_measures_are_standard_json(tmp_path: Path) -> None:
 
 
 def test_bids_passes_validator_rules(tmp_path: Path) -> None:
-    one, two = stored(tmp_path), stored(tmp_path, HAND21, name="two")
+    one, two = store_session(tmp_path), store_session(tmp_path, HAND21, name="two")
     export_sessions([ExportRequest.from_file(one), ExportRequest.from_file(two)], tmp_path / "set", ["bids"])
     command = [sys.executable, "-c", "import sys, bids_validator_deno as b; sys.exit(b.cli())"]
     done = subprocess.run(
@@ -165,7 +165,7 @@ def test_bids_passes_validator_rules(tmp_path: Path) -> None:
 def test_bids_other_files_stay(tmp_path: Path) -> None:
     (tmp_path / "sub-notes.txt").touch()
     (tmp_path / "sub-other" / "ses-1" / "anat").mkdir(parents=True)
-    done = export_sessions([ExportRequest.from_file(stored(tmp_path))], tmp_path, ["bids"])
+    done = export_sessions([ExportRequest.from_file(store_session(tmp_path))], tmp_path, ["bids"])
     assert (bool(done.files), done.refused) == (True, ())
 
 
@@ -193,34 +193,34 @@ def test_bids_columns_match_channels(tmp_path: Path) -> None:
 
 
 def test_csv_columns_state_estimate_and_sign(tmp_path: Path) -> None:
-    for take, name in ((take_of(flexing()), "wrist"), (hand_take(tmp_path), "hand")):
+    for take, name in ((build_take(flexing()), "wrist"), (hand_take(tmp_path), "hand")):
         out = tmp_path / name
         csv_tables.write(take, out)
         said = json.loads((out / "one.csv.json").read_text(encoding="utf-8"))["tables"]
         assert all(text for table in said.values() for text in table.values())
         estimates = {"filter", "smoother"} if take.session.smoothed is not None else {"filter"}
-        head = list(rows_of(out / "one.wrist.for-programs.csv")[0])
+        head = list(read_rows(out / "one.wrist.for-programs.csv")[0])
         assert {column.split("_")[0] for column in head[2:]} == estimates
         assert {
             f"{one}_{part}" for one in estimates for part in ("flexion_deg", "zyz_beta_deg", "isb_flexion_deg")
         } < set(head)
         assert len(set(head)) == len(head)
-        for row in rows_of(out / "one.measures.for-programs.csv"):
+        for row in read_rows(out / "one.measures.for-programs.csv"):
             assert row["positive"]
             assert row["estimate"] in estimates
             joint = row["of"][:3] in ("CMC", "MCP", "PIP", "DIP", "IP1")
             assert not (joint and row["measure"] in ("flexion", "extension")), "of a joint: largest and smallest"
-    rows = {(row["measure"], row["of"]): row for row in rows_of(out / "one.measures.for-programs.csv")}
+    rows = {(row["measure"], row["of"]): row for row in read_rows(out / "one.measures.for-programs.csv")}
     assert rows["largest", "MCP2_flexion"]["positive"] == rows["smallest", "MCP2_flexion"]["positive"] == "flexed"
     assert "index finger" in rows["smallest", "CMC1_extension"]["positive"]
 
 
 def test_repetitions_are_in_every_capable_format(tmp_path: Path) -> None:
-    take = take_of(read_session(stopping(tmp_path)), "stops")
+    take = build_take(read_session(stopping(tmp_path)), "stops")
     figures = take.results
     for module in (csv_tables, json_measures, bids_motion):
         module.write(take, tmp_path / "out")
-    table = rows_of(tmp_path / "out" / "stops.repetitions.for-programs.csv")
+    table = read_rows(tmp_path / "out" / "stops.repetitions.for-programs.csv")
     content = json.loads((tmp_path / "out" / "stops.measures.json").read_text(encoding="utf-8"))
     assert len(table) == len(content["repetitions"]) == len(figures.repetitions) == 3
     for row, told, shown in zip(table, content["repetitions"], figures.repetitions, strict=True):

@@ -19,7 +19,7 @@ from carpus.core.pipeline import smoothing
 from carpus.ui.screens.live import recording as live_recording
 from carpus.ui.screens.live import screen as live_screen
 from carpus.ui.screens.markers import screen as markers_screen
-from tests.journeys.takes import SPEED, take_of
+from tests.journeys.takes import SPEED, build_take
 from tests.rendered import REPEATED_FLEXION, Rendered
 
 DRAWN_EVERY_MS = 200
@@ -63,6 +63,6 @@ def open_desktop(open_desktop: Open, take: Path) -> Open:
     usual = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False))
 
     def open_one(settings: Settings = usual, **options: Any) -> Desktop:
-        return open_desktop(settings, **{"practice_renderer": take_of(take), "speed": SPEED} | options)
+        return open_desktop(settings, **{"practice_renderer": build_take(take), "speed": SPEED} | options)
 
     return open_one

@@ -42,11 +42,11 @@ class Unpacked:
 unpacked = lru_cache(maxsize=1)(Unpacked)
 
 
-def take_of(folder: Path, fps: float = REPEATED_FLEXION.fps) -> Take:
+def build_take(folder: Path, fps: float = REPEATED_FLEXION.fps) -> Take:
     """What :func:`app.compose.compose` takes instead of the practice patient's half minute."""
     return lambda _set_up, _progress: (unpacked(folder), STILL_S - 1.0 / fps)
 
 
-def clicks_of(folder: Path) -> FloatArray:
+def read_take_clicks(folder: Path) -> FloatArray:
     """A person's clicks (6, 2) on the still hand."""
     return read_clicks(folder / CLICKS_FILE).pixel

@@ -13,7 +13,7 @@ from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
-from tests.journeys.test_journey import at, click, click_discs, still_hand
+from tests.journeys.test_journey import click, click_discs, wait_for_place, wait_for_still_hand
 
 
 def shown(desktop: Desktop, bubble: str) -> bool:
@@ -39,8 +39,8 @@ def test_first_session_is_guided_by_the_tour(qtbot: QtBot, open_desktop: Open, t
         click(qtbot, view.next_button)
 
     go_on("patient")
-    at(qtbot, desktop.controller, "markers")
-    still_hand(qtbot, desktop)
+    wait_for_place(qtbot, desktop.controller, "markers")
+    wait_for_still_hand(qtbot, desktop)
     go_on("aim")
     qtbot.waitUntil(lambda: shown(desktop, "click"))
     click_discs(qtbot, desktop, take)
@@ -61,14 +61,14 @@ def test_tour_escape_ends_the_tour_only(qtbot: QtBot, open_desktop: Open) -> Non
     desktop = open_desktop()
     journey, tour = desktop.controller, desktop.tour
     desktop.shell.key_pressed.emit("help")
-    at(qtbot, desktop.controller, "help")
+    wait_for_place(qtbot, desktop.controller, "help")
     click(qtbot, journey.help.screen.tour_button)
-    at(qtbot, desktop.controller, "patients")
+    wait_for_place(qtbot, desktop.controller, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     desktop.shell.key_pressed.emit("settings")
     qtbot.waitUntil(lambda: tour.bubble is None)
     desktop.shell.key_pressed.emit("back")
-    at(qtbot, desktop.controller, "patients")
+    wait_for_place(qtbot, desktop.controller, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     journey.patients.screen.new_patient()
     qtbot.waitUntil(lambda: tour.bubble is None)

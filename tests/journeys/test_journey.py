@@ -29,15 +29,15 @@ from carpus.core.session.reader import read_session
 from carpus.ui.shell.current_selection import SourceChoice
 from carpus.ui.shell.messages import MessageDialog, NoticeStrip
 from tests.journeys.conftest import Open
-from tests.journeys.takes import RANGE_DEG, SPEED, clicks_of
-from tests.session.samples import journal_of, make_header
-from tests.ui.printed import words_of
+from tests.journeys.takes import RANGE_DEG, SPEED, read_take_clicks
+from tests.session.samples import make_header, write_journal
+from tests.ui.printed import read_words
 
 PATIENCE_MS = 60_000
 """Only a failing test ever waits that long."""
 
 
-def wait(qtbot: QtBot, condition: Any) -> None:
+def wait_until(qtbot: QtBot, condition: Any) -> None:
     qtbot.waitUntil(condition, timeout=PATIENCE_MS)
 
 
@@ -49,30 +49,30 @@ def click(qtbot: QtBot, widget: QWidget, spot: QPoint | None = None) -> None:
     qtbot.mouseClick(widget, Qt.MouseButton.LeftButton, pos=spot or widget.rect().center())
 
 
-def at(qtbot: QtBot, journey: MainController, place: str) -> None:
-    wait(qtbot, lambda: journey.place == place)
+def wait_for_place(qtbot: QtBot, journey: MainController, place: str) -> None:
+    wait_until(qtbot, lambda: journey.place == place)
 
 
-def still_hand(qtbot: QtBot, desktop: Desktop) -> None:
+def wait_for_still_hand(qtbot: QtBot, desktop: Desktop) -> None:
     """Half a second of the still hand has been seen."""
-    at(qtbot, desktop.controller, "markers")
+    wait_for_place(qtbot, desktop.controller, "markers")
     source = desktop.controller.current.source
-    wait(qtbot, lambda: len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES)
-    wait(qtbot, lambda: desktop.controller.markers.screen.picture.image is not None)
+    wait_until(qtbot, lambda: len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES)
+    wait_until(qtbot, lambda: desktop.controller.markers.screen.picture.image is not None)
 
 
 def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
     picture = desktop.controller.markers.screen.picture
-    for u, v in clicks_of(take):
+    for u, v in read_take_clicks(take):
         QApplication.processEvents()  # what came or went beside the picture has made it larger or smaller
         click(qtbot, picture, picture.to_screen(float(u), float(v)).toPoint())
-    wait(qtbot, desktop.controller.markers.screen.primary_button.isEnabled)
+    wait_until(qtbot, desktop.controller.markers.screen.primary_button.isEnabled)
 
 
-def reviewed(qtbot: QtBot, desktop: Desktop) -> Path:
+def get_reviewed_file(qtbot: QtBot, desktop: Desktop) -> Path:
     """The session file of the review that is shown."""
-    at(qtbot, desktop.controller, "review")
-    wait(qtbot, lambda: desktop.controller.review.screen.is_loaded)
+    wait_for_place(qtbot, desktop.controller, "review")
+    wait_until(qtbot, lambda: desktop.controller.review.screen.is_loaded)
     return desktop.library.entry(desktop.controller.current.session_id).path
 
 
@@ -115,36 +115,36 @@ def test_whole_journey_by_mouse(
         click(qtbot, chips.buttons()[0])
     click(qtbot, journey.patients.screen.form.save_button)
     name = journey.patients.screen.list.patient_model.row(0).pseudonym
-    wait(qtbot, lambda: journey.patients.screen.card.start_button.isVisible())
+    wait_until(qtbot, lambda: journey.patients.screen.card.start_button.isVisible())
     click(qtbot, journey.patients.screen.card.start_button)
-    at(qtbot, desktop.controller, "exercise")
+    wait_for_place(qtbot, desktop.controller, "exercise")
     click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
     journey.exercise.screen.form["stores_frames"].choose(True)
     click(qtbot, journey.exercise.screen.primary_button)
-    at(qtbot, desktop.controller, "camera")
+    wait_for_place(qtbot, desktop.controller, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
     click(qtbot, journey.camera.screen.primary_button)
-    still_hand(qtbot, desktop)
+    wait_for_still_hand(qtbot, desktop)
     click(qtbot, journey.markers.screen.primary_button)
     click_discs(qtbot, desktop, take)
     assert journey.markers.screen.guidance.verdict_panel.states()[0] == "good"
     click(qtbot, journey.markers.screen.primary_button)
-    at(qtbot, desktop.controller, "live")
+    wait_for_place(qtbot, desktop.controller, "live")
     assert desktop.shell.banner.text == f"This is a simulated hand, not {name}. It is excluded from analysis."
     live = journey.live.screen
-    wait(qtbot, lambda: not live.recording.is_hand_resting())
+    wait_until(qtbot, lambda: not live.recording.is_hand_resting())
     can_move, live.recording.is_hand_resting = live.recording.is_hand_resting, lambda: True
-    wait(qtbot, lambda: "drawn" in live.controls.light_view.status_light.state)
+    wait_until(qtbot, lambda: "drawn" in live.controls.light_view.status_light.state)
     assert not journey.messages.is_busy, "a card would take Space from the recording"
     click(qtbot, live.controls.main_button)
     assert live.recording.state == "off", "a still hand is not recorded"
     live.recording.is_hand_resting = can_move
     click(qtbot, journey.live.screen.controls.main_button)
-    wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
-    wait(qtbot, lambda: desktop.shell.top_bar.recording_pill.state == "recording")
-    wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
+    wait_until(qtbot, lambda: journey.live.screen.recording.state == "recording")
+    wait_until(qtbot, lambda: desktop.shell.top_bar.recording_pill.state == "recording")
+    wait_until(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
     click(qtbot, journey.live.screen.controls.main_button)
-    path = reviewed(qtbot, desktop)
+    path = get_reviewed_file(qtbot, desktop)
     assert read_session(path).header.is_simulated
     assert desktop.shell.banner.isVisible()
     assert any("imulated" in line for line in journey.top_bar.banner_lines())
@@ -152,31 +152,31 @@ def test_whole_journey_by_mouse(
     check_pictures(desktop, path)
     before, counted = path.read_bytes(), journey.review.screen.results.repetition_count
     journey.review.screen._exclude_repetition(journey.review.screen.current + 1, "pain", and_after=False)
-    wait(qtbot, lambda: not journey.background.is_busy)
+    wait_until(qtbot, lambda: not journey.background.is_busy)
     assert path.read_bytes() == before, "what was left out is stored beside the session"
     assert path.is_relative_to(desktop.library.store.sessions_folder)
     assert desktop.shell.top_bar.recording_pill.state == "off"
     click(qtbot, desktop.shell.top_bar.navigation_buttons[2])
-    at(qtbot, desktop.controller, "progress")
+    wait_for_place(qtbot, desktop.controller, "progress")
     click(qtbot, desktop.shell.top_bar.navigation_buttons[1])
-    reviewed(qtbot, desktop)
+    get_reviewed_file(qtbot, desktop)
     click(qtbot, desktop.shell.top_bar.navigation_buttons[2])
-    at(qtbot, desktop.controller, "progress")
-    wait(qtbot, lambda: bool(journey.progress.screen.chart.points()))
+    wait_for_place(qtbot, desktop.controller, "progress")
+    wait_until(qtbot, lambda: bool(journey.progress.screen.chart.points()))
     spot = journey.progress.screen.chart.points()[0][2].toPoint()
     qtbot.mouseClick(journey.progress.screen.chart.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
-    reviewed(qtbot, desktop)
+    get_reviewed_file(qtbot, desktop)
     click(qtbot, journey.review.screen.card.report_button)
-    at(qtbot, desktop.controller, "report")
+    wait_for_place(qtbot, desktop.controller, "report")
     pdf = tmp_path / "report.pdf"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
     with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
         click(qtbot, journey.report.screen.save_button)
-    assert name in words_of(pdf)
+    assert name in read_words(pdf)
     click(qtbot, desktop.shell.top_bar.back_button)
-    at(qtbot, desktop.controller, "review")
+    wait_for_place(qtbot, desktop.controller, "review")
     click(qtbot, desktop.shell.top_bar.back_button)
-    at(qtbot, desktop.controller, "patients")
+    wait_for_place(qtbot, desktop.controller, "patients")
     row = journey.patients.screen.list.patient_model.row(0)
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
     assert journey.patients.screen._store.card(row.patient_id).has_sessions
@@ -194,21 +194,21 @@ def test_recording_is_measured_from_its_first_frame_to_its_last_in_real_time(
 ) -> None:
     journey = (desktop := open_desktop()).controller
     journey.camera.open(PRACTICE_PATIENT)
-    at(qtbot, desktop.controller, "markers")
+    wait_for_place(qtbot, desktop.controller, "markers")
     journey.navigator.navigate_back()
-    at(qtbot, desktop.controller, "camera")
+    wait_for_place(qtbot, desktop.controller, "camera")
     journey.camera.screen.set_path(str(take))
     click(qtbot, journey.camera.screen.primary_button)
-    at(qtbot, desktop.controller, "markers")
+    wait_for_place(qtbot, desktop.controller, "markers")
     assert not journey.markers.screen.new_frame_button.isVisible()
     click_discs(qtbot, desktop, take)
     assert not journey.messages.is_busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop.controller, "live")
+    wait_for_place(qtbot, desktop.controller, "live")
     assert journey.live.screen.recording.state == "off", "it waits for the key, as every source does"
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
     begun_s = time.monotonic()
-    path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
+    path = get_reviewed_file(qtbot, desktop)  # recorded, played to its end and stopped by itself
     assert not journey.review.screen.card.repeat_button.isVisible()
     check_file(path, "practice")
     stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
@@ -230,7 +230,7 @@ def test_full_disk_prevents_recording_and_closing_keeps_storing(
     with monkeypatch.context() as full:
         full.setattr(measurement.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
         journey.live.screen.recording.toggle()
-        wait(qtbot, card.isVisible)
+        wait_until(qtbot, card.isVisible)
     assert "20 MB free" in card.details.full_text()
     assert journey.live.screen.recording.state == "off"
     assert list(folder.rglob("*.h5*")) == []
@@ -245,7 +245,7 @@ def test_full_disk_prevents_recording_and_closing_keeps_storing(
 
     monkeypatch.setattr(SmoothingProcess, "join", looked_back)
     journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.duration_s > 0.5)
+    wait_until(qtbot, lambda: journey.live.screen.recording.duration_s > 0.5)
     journey.live.screen.recording.stop()
     assert journey.live.screen.recording.is_storing
     desktop.shell.close_without_prompt()
@@ -257,11 +257,11 @@ def test_full_disk_prevents_recording_and_closing_keeps_storing(
 
 def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, MainController]:
     desktop.controller.camera.open(PRACTICE_PATIENT)
-    still_hand(qtbot, desktop)
+    wait_for_still_hand(qtbot, desktop)
     desktop.controller.markers.screen.accept()
     click_discs(qtbot, desktop, take)
     click(qtbot, desktop.controller.markers.screen.primary_button)
-    at(qtbot, desktop.controller, "live")
+    wait_for_place(qtbot, desktop.controller, "live")
     return desktop, desktop.controller
 
 
@@ -283,7 +283,7 @@ def test_question_during_recording_loses_no_frame(
     def record() -> None:
         shell.activateWindow()
         qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
-        wait(qtbot, lambda: recording.duration_s > 0.5)
+        wait_until(qtbot, lambda: recording.duration_s > 0.5)
 
     record()
     shell.close()
@@ -303,16 +303,16 @@ def test_question_during_recording_loses_no_frame(
     recording.toggle()
     goes_on(Qt.Key.Key_Return)
     feed.handle_notice(CameraLost("Xtion", "unplugged"))
-    wait(qtbot, lambda: card().isVisible())
+    wait_until(qtbot, lambda: card().isVisible())
     assert "has stopped sending images" in card().happened.text()
     assert "saved" in card().safe_detail.text()
     feed.handle_notice(CameraReturned("Xtion", "3 s"))
-    wait(qtbot, lambda: not card().isVisible())
+    wait_until(qtbot, lambda: not card().isVisible())
     recording.toggle()
     click(qtbot, card().answer_buttons[0])  # "Stop and review"
     assert journey.place == "live"
     journey.messages.show_fault(DiskFull("x"))
-    first = reviewed(qtbot, desktop)
+    first = get_reviewed_file(qtbot, desktop)
     assert card().isVisible(), "a message moves with the screen"
     assert "disk" in card().happened.text()
     click(qtbot, card().answer_buttons[-1])
@@ -320,14 +320,14 @@ def test_question_during_recording_loses_no_frame(
     with h5py.File(first) as file:
         assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
     click(qtbot, journey.review.screen.card.repeat_button)
-    at(qtbot, journey, "live")
+    wait_for_place(qtbot, journey, "live")
     record()
     shell.close()
     recording.stop()  # as the end of the source does
-    second = reviewed(qtbot, desktop)
+    second = get_reviewed_file(qtbot, desktop)
     assert not journey.messages.is_busy, "the question has answered itself"
     click(qtbot, journey.review.screen.card.repeat_button)
-    at(qtbot, journey, "live")
+    wait_for_place(qtbot, journey, "live")
     record()
     shell.close()
     click(qtbot, card().answer_buttons[0])  # "Stop, save and close"
@@ -345,7 +345,7 @@ def cut_short(data_folder: Path) -> None:
     """What is left of a session when the program is killed, or the disk was too full to finish it."""
     folder = spool_folder(data_folder) / "someone"
     folder.mkdir(parents=True)
-    journal_of(folder / "cut.journal", 60).abandon()
+    write_journal(folder / "cut.journal", 60).abandon()
 
 
 def test_camera_that_is_ready_is_opened_without_a_question_after_the_exercise(
@@ -353,7 +353,7 @@ def test_camera_that_is_ready_is_opened_without_a_question_after_the_exercise(
 ) -> None:
     monkeypatch.setattr(MaintenanceCameras, "name", lambda _: "Depth camera")
     journey = (desktop := open_desktop()).controller
-    wait(qtbot, lambda: journey.camera_state.is_connected)
+    wait_until(qtbot, lambda: journey.camera_state.is_connected)
     opened: list[SourceChoice] = []
     monkeypatch.setattr(journey.opener, "open", opened.append)
     journey.exercise.open(desktop.library.patients.add(Patient("Linden 42", "right")))
@@ -369,18 +369,18 @@ def test_simulated_camera_is_for_the_practice_patient_only(
     monkeypatch.setattr(MaintenanceCameras, "name", lambda _: None)
     journey = (desktop := open_desktop()).controller
     journey.camera.open(PRACTICE_PATIENT)
-    at(qtbot, journey, "markers")
+    wait_for_place(qtbot, journey, "markers")
     journey.patients.open()
     linden = desktop.library.patients.add(Patient("Linden 42", "right"))
     for _ in range(2):
         journey.exercise.open(linden)
         click(qtbot, journey.exercise.screen.primary_button)
-        at(qtbot, desktop.controller, "camera")
+        wait_for_place(qtbot, desktop.controller, "camera")
         assert journey.camera.screen.sources.value() == "camera"
         assert not journey.camera.screen.primary_button.isEnabled()
         click(qtbot, journey.camera.screen.sources.option("practice"))  # by hand, each time
         click(qtbot, journey.camera.screen.primary_button)
-        at(qtbot, desktop.controller, "markers")
+        wait_for_place(qtbot, desktop.controller, "markers")
         journey.patients.open()
 
 
@@ -393,6 +393,6 @@ def test_interrupted_session_is_reported_at_next_start_and_can_be_reviewed(qtbot
     assert make_header().subject_id in strip.words.summary
     assert "safe" in strip.words.data_safety
     click(qtbot, strip.button)
-    path = reviewed(qtbot, second)
+    path = get_reviewed_file(qtbot, second)
     assert (path.name, path.parent.parent) == ("cut.h5", first.library.store.sessions_folder)
     assert second.controller.current.patient.pseudonym == make_header().subject_id

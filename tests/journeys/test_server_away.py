@@ -15,7 +15,7 @@ from carpus.app.desktop import server_monitor
 from carpus.app.settings import RecordingSettings, RecordsSettings, ScreenSettings, Settings
 from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
-from tests.journeys.test_journey import at, click, click_discs, reviewed, wait
+from tests.journeys.test_journey import click, click_discs, get_reviewed_file, wait_for_place, wait_until
 from tests.records.postgres import Cluster
 
 
@@ -29,17 +29,17 @@ def cluster() -> Iterator[Cluster]:
 def measured(qtbot: QtBot, desktop: Desktop, take: Path) -> Path:
     """From the exercise to the review, of a stored recording."""
     journey = desktop.controller
-    at(qtbot, journey, "exercise")
+    wait_for_place(qtbot, journey, "exercise")
     click(qtbot, journey.exercise.screen.primary_button)
-    at(qtbot, journey, "camera")
+    wait_for_place(qtbot, journey, "camera")
     journey.camera.screen.set_path(str(take))
     click(qtbot, journey.camera.screen.primary_button)
-    at(qtbot, journey, "markers")
+    wait_for_place(qtbot, journey, "markers")
     click_discs(qtbot, desktop, take)
     click(qtbot, journey.markers.screen.primary_button)
-    at(qtbot, journey, "live")
+    wait_for_place(qtbot, journey, "live")
     click(qtbot, journey.live.screen.controls.main_button)
-    return reviewed(qtbot, desktop)
+    return get_reviewed_file(qtbot, desktop)
 
 
 def is_away(desktop: Desktop) -> bool:
@@ -64,7 +64,7 @@ def test_server_that_stops_hides_list_and_measuring_continues(
     assert not desktop.shell.banner.isVisible()
 
     cluster.stop()
-    wait(qtbot, lambda: is_away(desktop))
+    wait_until(qtbot, lambda: is_away(desktop))
     assert "server" in desktop.shell.banner.text
     assert screen.search.text() == "Linden 42", "who was chosen can be measured at one press"
     click(qtbot, screen._offline_view.button)
@@ -72,7 +72,7 @@ def test_server_that_stops_hides_list_and_measuring_continues(
     assert linden in str(first), "known by identity"
     assert not journey.messages.is_busy, journey.messages.dialog.happened.text()
     click(qtbot, desktop.shell.top_bar.back_button)
-    at(qtbot, journey, "patients")
+    wait_for_place(qtbot, journey, "patients")
     assert is_away(desktop)
     desktop.close()
 
@@ -82,15 +82,15 @@ def test_server_that_stops_hides_list_and_measuring_continues(
     assert "server" in desktop.shell.banner.text
     qtbot.keyClicks(screen.search, "heron 17")
     qtbot.keyClick(screen.search, Qt.Key.Key_Return)
-    at(qtbot, journey, "exercise")
+    wait_for_place(qtbot, journey, "exercise")
     cluster.start()
-    wait(qtbot, lambda: not desktop.shell.banner.text.startswith("The clinic"))
+    wait_until(qtbot, lambda: not desktop.shell.banner.text.startswith("The clinic"))
     assert journey.current.patient is not None
     heron = desktop.library.patients.id_of_pseudonym("Heron 17")
     assert journey.current.patient.patient_id == heron, "who was typed is who the list says"
     click(qtbot, desktop.shell.top_bar.back_button)
-    at(qtbot, journey, "patients")
-    wait(qtbot, lambda: screen.list.isVisible())
+    wait_for_place(qtbot, journey, "patients")
+    wait_until(qtbot, lambda: screen.list.isVisible())
     assert [row.pseudonym for row in screen._rows[:-1]] == ["Heron 17", "Linden 42"]
     assert len(desktop.library.sessions(linden)) == 1
     assert screen.new_button.isEnabled()

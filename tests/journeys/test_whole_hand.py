@@ -17,8 +17,8 @@ from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE
 from tests.journeys.conftest import Open
-from tests.journeys.takes import clicks_of, take_of
-from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
+from tests.journeys.takes import build_take, read_take_clicks
+from tests.journeys.test_journey import click, get_reviewed_file, wait_for_place, wait_for_still_hand, wait_until
 from tests.rendered import WHOLE_HAND as SPEC
 from tests.rendered import Rendered
 
@@ -31,32 +31,32 @@ def hand_take(rendered: Rendered) -> Path:
 def test_whole_hand_from_set_up_to_session_file(
     qtbot: QtBot, open_desktop: Open, hand_take: Path, tmp_path: Path
 ) -> None:
-    desktop = open_desktop(practice_renderer=take_of(hand_take, SPEC.fps), speed=1.0)
+    desktop = open_desktop(practice_renderer=build_take(hand_take, SPEC.fps), speed=1.0)
     journey = desktop.controller
     markers, live = journey.markers.screen, journey.live.screen
     journey.exercise.open(PRACTICE_PATIENT)
-    at(qtbot, desktop.controller, "exercise")
+    wait_for_place(qtbot, desktop.controller, "exercise")
     click(qtbot, journey.exercise.screen.protocol.buttons()[1])
     click(qtbot, journey.exercise.screen.exercises.option("FIST_COMPOSITE"))
     click(qtbot, journey.exercise.screen.primary_button)
-    at(qtbot, desktop.controller, "camera")
+    wait_for_place(qtbot, desktop.controller, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
     click(qtbot, journey.camera.screen.primary_button)
-    still_hand(qtbot, desktop)
+    wait_for_still_hand(qtbot, desktop)
     click(qtbot, markers.primary_button)
     assert markers.labels.order == HAND21.markers
-    wait(qtbot, lambda: bool(markers.labels and markers.labels.proposals))
+    wait_until(qtbot, lambda: bool(markers.labels and markers.labels.proposals))
     assert not markers.labels.open_markers
     qtbot.keyClick(markers.picture, Qt.Key.Key_Return)  # the names proposed are right
-    np.testing.assert_allclose(markers.labels.clicks().pixel, clicks_of(hand_take), atol=4.0)
-    wait(qtbot, lambda: markers.labelling.outcome is not None)
+    np.testing.assert_allclose(markers.labels.clicks().pixel, read_take_clicks(hand_take), atol=4.0)
+    wait_until(qtbot, lambda: markers.labelling.outcome is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop.controller, "live")
-    wait(qtbot, lambda: "seen" in live.history.marker_visibility().values())
+    wait_for_place(qtbot, desktop.controller, "live")
+    wait_until(qtbot, lambda: "seen" in live.history.marker_visibility().values())
     qtbot.keyClick(live, Qt.Key.Key_Space)
-    wait(qtbot, lambda: live.recording.duration_s > 3.0)
+    wait_until(qtbot, lambda: live.recording.duration_s > 3.0)
     qtbot.keyClick(live, Qt.Key.Key_Space)
-    path = reviewed(qtbot, desktop)
+    path = get_reviewed_file(qtbot, desktop)
     is_the_movement(path, hand_take)
     looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
     assert not journey.messages.is_busy

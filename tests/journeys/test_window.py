@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from tests.journeys.takes import RANGE_DEG
-from tests.ui.printed import words_of
+from tests.ui.printed import read_words
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60.0
@@ -163,7 +163,7 @@ def test_person_measures_in_real_window(person: Person, tmp_path: Path) -> None:
     assert person.sees("saved ") == f"saved {pdf}"
     assert person.leave() == 0
     assert "Traceback" not in person.faults
-    assert "strap loose" in words_of(pdf)
+    assert "strap loose" in read_words(pdf)
     with h5py.File(session) as file:
         assert "strap loose" in file["events/text"].asstr()[:].tolist()
         assert file.attrs["complete"]

@@ -17,7 +17,7 @@ from carpus.app.desktop.appearance import create_application
 from carpus.app.desktop.source_factory import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop, close_on_signals
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from tests.journeys.takes import SPEED, clicks_of, take_of
+from tests.journeys.takes import SPEED, build_take, read_take_clicks
 
 LOOK_MS = 50
 
@@ -67,7 +67,7 @@ class Reporter:
             if seen and markers.picture.image is not None:
                 self.say("place markers")
         elif not markers.labels.is_complete:
-            for u, v in clicks_of(self._take):
+            for u, v in read_take_clicks(self._take):
                 spot: QPoint = markers.picture.mapToGlobal(markers.picture.to_screen(u, v).toPoint())
                 self.say(f"disc {spot.x()} {spot.y()}")
             self.say("discs told")
@@ -82,7 +82,7 @@ def main() -> int:
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=recording)
     qt = create_application(["carpus"])
     desktop = compose.compose(
-        qt, settings, practice_renderer=take_of(take), speed=SPEED, settings_folder=data / "settings"
+        qt, settings, practice_renderer=build_take(take), speed=SPEED, settings_folder=data / "settings"
     )
     close_on_signals(desktop)
     reporter = Reporter(desktop, take)

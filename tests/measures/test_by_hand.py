@@ -28,7 +28,7 @@ from carpus.core.measures.manual_measurements import (
 from carpus.core.model.errors import ConcurrentChange
 from carpus.core.records.patients import add_manual_measurements, read_manual_measurements
 from carpus.core.records.schema import MANUAL_MEASUREMENT
-from tests.records.samples import HERON, LINDEN, opened
+from tests.records.samples import HERON, LINDEN, open_store
 
 DAY = date(2026, 11, 20)
 
@@ -114,7 +114,7 @@ def test_change_verdict_follows_limit_and_direction_of_the_measure(first: float,
 
 
 def test_store_returns_manual_values_in_order_of_entry(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         size = ManualValue("WRIST_ROUND", "", "left", DAY, (17.6,), "over both styloids", "MK")
         add_manual_measurements(house.store, linden, [flexion(40.0), size])
@@ -122,7 +122,7 @@ def test_store_returns_manual_values_in_order_of_entry(tmp_path: Path) -> None:
         add_manual_measurements(house.store, heron, [ManualValue("GRIP", "", "right", DAY, (18.0, 19.5, 17.0))])
         with pytest.raises(ConcurrentChange):
             add_manual_measurements(house.store, "nobody", [flexion(1.0)])
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         found = read_manual_measurements(house.store, linden)
         assert [replace(one, entered_at=None) for one in found] == [flexion(40.0), size, flexion(45.0)]
         assert all(one.entered_at is not None and one.entered_at.tzinfo is not None for one in found)

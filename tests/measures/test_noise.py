@@ -12,7 +12,7 @@ from carpus.core.measures.noise import FILTER_CORRELATION_S, Noise, cutoff_for_s
 from carpus.core.measures.repetitions import Stroke, find_repetitions
 from carpus.core.measures.signals import Signal, low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke
-from tests.measures.tracked import ONE_PROCESS, Tracked, tracked
+from tests.measures.tracked import ONE_PROCESS, Tracked, track_simulated
 from tests.suites import few
 
 pytestmark = ONE_PROCESS
@@ -51,7 +51,7 @@ EXERCISES = (
 def test_stroke_speed_and_smoothness_match_the_movement(
     motion: str, column: int, seconds: float, speed_hz: float, smoothed: bool
 ) -> None:
-    take = tracked(motion, seconds, speed_hz)
+    take = track_simulated(motion, seconds, speed_hz)
     true, found = find_strokes(take, column, smoothed=None), find_strokes(take, column, smoothed=smoothed)
     assert len(found) >= 3
     assert not any(stroke.too_slow for stroke in found)
@@ -70,7 +70,7 @@ def test_stroke_speed_and_smoothness_match_the_movement(
 
 @EITHER
 def test_stroke_smoothness_lost_in_noise_is_unknown(smoothed: bool) -> None:
-    take = tracked("flexion", 30.0, 0.1, 31, 0.3)
+    take = track_simulated("flexion", 30.0, 0.1, 31, 0.3)
     true, found = find_strokes(take, 1, smoothed=None), find_strokes(take, 1, smoothed=smoothed)
     assert math.degrees(mean_of_known(true, "arc_rad")) == pytest.approx(30.0, abs=3.0)
     assert sum(stroke.too_slow_to_be_smooth for stroke in found) >= len(found) - 1
@@ -150,7 +150,7 @@ def test_range_extremes_of_repetitions_are_within_a_degree(smoothed: bool) -> No
     for motion, column, seconds, speed_hz, seed in (
         *((*exercise, 1) for exercise in EXERCISES), ("flexion", 1, 10.0, 0.4, 2), ("fast_deviation", 0, 6.0, 1.3, 2),
     ):  # fmt: skip
-        take = tracked(motion, seconds, speed_hz, seed)
+        take = track_simulated(motion, seconds, speed_hz, seed)
         true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, column])
         repetitions = find_repetitions(true).repetitions
         angle = make_angle(take, column, smoothed=smoothed)
@@ -165,7 +165,7 @@ def test_range_extremes_of_repetitions_are_within_a_degree(smoothed: bool) -> No
 
 
 def test_range_extremes_of_finger_joints_are_within_three_degrees() -> None:
-    take = tracked("fist", 7.5, 0.4, discs="hand21")
+    take = track_simulated("fist", 7.5, 0.4, discs="hand21")
     names = list(take.truth.joint_names)
     off_deg = []
     for name in ("MCP2_flexion", "MCP3_flexion", "PIP2_flexion", "PIP3_flexion"):
@@ -205,7 +205,7 @@ def test_stroke_speed_with_occlusion_is_unknown() -> None:
 def test_stroke_speed_of_a_slow_stroke_is_not_that_of_noise(
     motion: str, column: int, seconds: float, speed_hz: float, seed: int, share: float, smoothed: bool
 ) -> None:
-    take = tracked(motion, seconds, speed_hz, seed, share)
+    take = track_simulated(motion, seconds, speed_hz, seed, share)
     # Half a way from rest is too little beside the noise of its beginning: up to 38 % too quick. No figure has it.
     true = [one for one in find_strokes(take, column, smoothed=None) if not one.stroke.is_half]
     angle = make_angle(take, column, smoothed=smoothed)

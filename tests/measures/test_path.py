@@ -10,7 +10,7 @@ import pytest
 from carpus.core.measures.noise import Noise
 from carpus.core.measures.reach import WRIST_NOISE, find_reaches, measure_path
 from carpus.core.measures.signals import Signal, resample_evenly
-from tests.measures.tracked import ONE_PROCESS, tracked
+from tests.measures.tracked import ONE_PROCESS, track_simulated
 from tests.suites import few
 
 pytestmark = ONE_PROCESS
@@ -49,7 +49,7 @@ def test_path_undefined_cases_are_nan() -> None:
 def test_reaches_slow_match_the_movement(
     seed: int, speed_hz: float, share: float, seconds: float, smoothed: bool
 ) -> None:
-    take = tracked("reach_grasp", seconds, speed_hz, seed, share)
+    take = track_simulated("reach_grasp", seconds, speed_hz, seed, share)
     motion = take.smoothed if smoothed else take.causal
     time_s = take.truth.time_s
     true = find_reaches(resample_evenly(time_s, take.truth.position_m))

@@ -16,7 +16,7 @@ from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke, sparc
 from carpus.core.model.types import FloatArray
 from tests.measures.test_noise import make_angle
-from tests.measures.tracked import ONE_PROCESS, tracked
+from tests.measures.tracked import ONE_PROCESS, track_simulated
 from tests.measures.ways import RATE, Part, way
 from tests.suites import few
 
@@ -128,7 +128,7 @@ def test_stroke_arc_of_a_noisy_hold_is_zero(hold_s: float) -> None:
 def test_stroke_smoothness_of_a_tracked_patient_with_stops_is_low(
     seconds: float, speed_hz: float, share: float, fewest: int, smoothed: bool
 ) -> None:
-    take = tracked("flexion", seconds, speed_hz, seed=5, share=share, stops=True)
+    take = track_simulated("flexion", seconds, speed_hz, seed=5, share=share, stops=True)
     true = resample_evenly(take.truth.timestamp_s, take.truth.angles_rad[:, 1])
     angle = make_angle(take, 1, smoothed=smoothed)
     pairs = [

@@ -16,7 +16,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from tests.accuracy.carpus import measured_hand
+from tests.accuracy.carpus import measure_still_hand
 from tests.simulation.measurements import measurement_sequence
 
 ONE_PROCESS = pytest.mark.xdist_group("tracked exercises")
@@ -33,7 +33,7 @@ class Tracked:
     status: FloatArray
 
 
-def tracked(
+def track_simulated(
     motion: str,
     seconds: float,
     speed_hz: float,
@@ -58,7 +58,7 @@ def tracked(
 @lru_cache(maxsize=32)
 def _tracked(spec: RecordingSpec) -> Tracked:
     sequence = measurement_sequence(spec)
-    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
+    hand, neutral_ends_s = measure_still_hand(sequence, CalibrationSettings())
     assert hand.calibration is not None
     settings = TrackerSettings()
     learnt = noise_from_neutral(hand.noise, neutral_ends_s, settings)

@@ -33,7 +33,7 @@ def frame(index: int, dropped_before: int = 0) -> Frame:
     return Frame(index, 100.0 + index / 30.0, color, None, 0.001, dropped_before)
 
 
-def tracked(of: Frame) -> TrackedFrame:
+def make_tracked_frame(of: Frame) -> TrackedFrame:
     """A tracked frame that remembers which frame it came from."""
     return replace(
         make_frame(0),
@@ -93,13 +93,13 @@ class Gate:
         self.waiting = False
 
 
-def gated_tracker(gate: Gate, since: int = 0) -> Callable[[Frame], TrackedFrame]:
+def make_gated_tracker(gate: Gate, since: int = 0) -> Callable[[Frame], TrackedFrame]:
     """A tracker that waits at a gate with the pictures from ``since`` on."""
 
     def slow(of: Frame) -> TrackedFrame:
         if of.index >= since:
             gate.pass_through()
-        return tracked(of)
+        return make_tracked_frame(of)
 
     return slow
 

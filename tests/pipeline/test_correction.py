@@ -45,7 +45,7 @@ from carpus.core.session.values import Session, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
-from tests.accuracy.carpus import measured_hand
+from tests.accuracy.carpus import measure_still_hand
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, blobs, calibration, discs_cam_m, swing
 
@@ -104,7 +104,7 @@ def task(stored: Stored, output: Path, *corrections: Correction) -> CorrectionTa
     return load_task(stored.path, output, corrections, initials="MK")
 
 
-def put_right(stored: Stored) -> Correction:
+def make_correction(stored: Stored) -> Correction:
     return Correction(WRONG_FROM, {"MCP3": (float(stored.disc_px[0]), float(stored.disc_px[1]))})
 
 
@@ -114,7 +114,7 @@ def right(stored: Stored) -> Path:
     path, seen = stored.path.with_name("right.h5"), list[tuple[int, int]]()
     before = stored.path.read_bytes()
     assert correct_in_process(
-        task(stored, path, put_right(stored)), lambda at, of: seen.append((at, of)), threading.Event()
+        task(stored, path, make_correction(stored)), lambda at, of: seen.append((at, of)), threading.Event()
     )
     assert seen[-1][1] == round(SECONDS * FPS)
     assert len(read_session(path))
@@ -134,7 +134,7 @@ def test_correction_replaces_false_blob_from_its_frame_on(stored: Stored, right:
     distance = np.linalg.norm(taken - stored.false_px, axis=-1)
     assert np.nanmin(distance) > 20.0
     assert np.isfinite(taken[:, MCP3]).all(axis=1).mean() > 0.95
-    assert find_lost_corrections(session, read_detections(right), [put_right(stored)]) == ()
+    assert find_lost_corrections(session, read_detections(right), [make_correction(stored)]) == ()
     for motion in (session.motion, session.smoothed):
         assert motion is not None
         error_deg = np.degrees(motion.angles_rad[WRONG_FROM + 10 :]) - stored.truth_deg[WRONG_FROM + 10 :]
@@ -237,7 +237,7 @@ OUT_OF_SIGHT = range(80, 90)
 def hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A whole hand of which a disc is covered from one picture on, and something blue goes with it."""
     seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="abduction", seconds=4.5))
-    measured, neutral_ends_s = measured_hand(seen, CalibrationSettings())
+    measured, neutral_ends_s = measure_still_hand(seen, CalibrationSettings())
     assert measured.calibration is not None
     path, settings, truth = tmp_path_factory.mktemp("hand") / "hand.h5", TrackSettings(), seen.truth
     learnt = noise_from_neutral(measured.noise, neutral_ends_s, settings.tracker)
@@ -256,7 +256,7 @@ def hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def corrected(hand: Path, output: Path, *corrections: Correction) -> Session:
+def run_correction(hand: Path, output: Path, *corrections: Correction) -> Session:
     correct(load_task(hand, output, corrections))
     return read_session(output)
 
@@ -264,7 +264,7 @@ def corrected(hand: Path, output: Path, *corrections: Correction) -> Session:
 def test_correction_false_finger_blob_leaves_other_fingers_unchanged(hand: Path, tmp_path: Path) -> None:
     before = read_session(hand)
     assert np.isfinite(before.markers.measured_px[OUT_OF_SIGHT.stop + 5 :, DIP3]).all()
-    after = corrected(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": None}))
+    after = run_correction(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": None}))
     assert not np.isfinite(after.markers.measured_px[WRONG_FROM:, DIP3]).any()
     size_deg = np.degrees(np.abs(after.motion.joint_angles_rad - before.motion.joint_angles_rad)).max(axis=0)
     changed = {name for name, size in zip(after.header.joint_names, size_deg, strict=True) if size > 0.1}
@@ -282,7 +282,7 @@ def test_correction_several_of_one_frame_hold(hand: Path, tmp_path: Path) -> Non
         Correction(WRONG_FROM, dict.fromkeys(names[:5]) | {"DIP3": place}),
         Correction(WRONG_FROM, dict.fromkeys(names[5:])),
     )
-    after = corrected(hand, tmp_path / "new.h5", *several)
+    after = run_correction(hand, tmp_path / "new.h5", *several)
     rows = [HAND21.markers.index(name) for name in names]
     assert not np.isfinite(after.markers.measured_px[WRONG_FROM : WRONG_FROM + 15, rows]).any()
     ((said, _),) = read_corrections(after)
@@ -295,5 +295,5 @@ def test_correction_several_of_one_frame_hold(hand: Path, tmp_path: Path) -> Non
 )
 def test_correction_of_unknown_frame_or_marker_raises(hand: Path, tmp_path: Path, wrong: dict[str, Any]) -> None:
     with pytest.raises(MarkersNotCorrectable):
-        corrected(hand, tmp_path / "new.h5", replace(Correction(WRONG_FROM, {"DIP3": None}), **wrong))
+        run_correction(hand, tmp_path / "new.h5", replace(Correction(WRONG_FROM, {"DIP3": None}), **wrong))
     assert list(tmp_path.iterdir()) == []

@@ -15,7 +15,14 @@ from carpus.core.model.types import Frame, TrackedFrame
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
 from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
-from tests.pipeline.live_fakes import ControlledSource, FakeSession, Gate, gated_tracker, tracked, wait_until
+from tests.pipeline.live_fakes import (
+    ControlledSource,
+    FakeSession,
+    Gate,
+    make_gated_tracker,
+    make_tracked_frame,
+    wait_until,
+)
 
 OUT = Path("session.h5")
 
@@ -66,7 +73,7 @@ def test_backlog_full_drops_and_counts_frames() -> None:
     source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source, LiveSettings(max_waiting_frames=8)) as live:
-        live.start_tracking(gated_tracker(gate))
+        live.start_tracking(make_gated_tracker(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -86,7 +93,7 @@ def test_backlog_preview_waits_half_a_second_at_most() -> None:
     source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
 
     with LiveSession(source) as live:
-        live.start_tracking(gated_tracker(gate))
+        live.start_tracking(make_gated_tracker(gate))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
         deliver(live, source, 40)
@@ -106,7 +113,7 @@ def test_live_session_tracker_fault_keeps_preview() -> None:
     def broken(picture: Frame) -> TrackedFrame:
         if picture.index == 3:
             raise ZeroDivisionError("no")
-        return tracked(picture)
+        return make_tracked_frame(picture)
 
     with LiveSession(source) as live:
         live.start_tracking(broken)
@@ -118,7 +125,7 @@ def test_live_session_tracker_fault_keeps_preview() -> None:
         assert event.kind == "tracking_failed"
         assert isinstance(event.cause, ZeroDivisionError)
         assert live.current_frame().index == 7
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         deliver_tracked(live, source, 2)
         assert live.current_view().tracked.index == 9
 
@@ -127,7 +134,7 @@ def test_live_session_tracker_fault_keeps_preview() -> None:
 def test_live_session_records_all_rows_in_one_thread() -> None:
     source, sink = ControlledSource(), FakeSession(OUT)
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         deliver_tracked(live, source, 3)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 200)
@@ -152,7 +159,7 @@ def test_live_recording_before_close_is_not_disk_time() -> None:
         waited.append((threading.current_thread().name, sink.ended))
 
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         deliver_tracked(live, source, 3)
         live.start_recording(lambda: sink, None, wait)
         deliver_tracked(live, source, 3)
@@ -172,7 +179,7 @@ def test_live_session_stop_drains_queues() -> None:
 
     live = LiveSession(source)
     live.start()
-    live.start_tracking(gated_tracker(gate))
+    live.start_tracking(make_gated_tracker(gate))
     live.start_recording(lambda: sink)
     deliver(live, source, 1)
     wait_until(lambda: gate.waiting)
@@ -194,7 +201,7 @@ def test_recorder_slow_disk_blocks_nothing() -> None:
     source, gate = ControlledSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 300)
         assert live.current_view().tracked.index == 299
@@ -211,7 +218,7 @@ def test_recorder_overflow_ends_recording_not_tracking() -> None:
     source, gate = ControlledSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
     with LiveSession(source, LiveSettings(max_waiting_rows=9, max_waiting_frames=1)) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -241,7 +248,7 @@ def test_recorder_write_fault_is_reported_once() -> None:
     source = ControlledSource()
     sink = FakeSession(OUT, fault_at=4)
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 20)
         wait_until(lambda: sink.ended != "")
@@ -279,7 +286,7 @@ def test_live_session_unopenable_file_raises_at_start() -> None:
 def test_live_session_pause_and_notes_are_stored() -> None:
     source, sink = ControlledSource(), FakeSession(OUT)
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         assert not live.add_event("note", "nobody records")
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 3)
@@ -316,7 +323,7 @@ class RecordingListener:
 def test_live_session_listener_fault_removes_listener() -> None:
     source, listener, breaking = ControlledSource(), RecordingListener(), RecordingListener(breaks_at=4)
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.set_listener(listener)
         deliver_tracked(live, source, 3)
         wait_until(lambda: len(listener.frames) == 3)
@@ -335,7 +342,7 @@ def test_live_session_rows_and_frames_start_together() -> None:
     rows, pictures = FakeSession(OUT), FakeSession(Path("raw"))
 
     with LiveSession(source) as live:
-        live.start_tracking(gated_tracker(gate))
+        live.start_tracking(make_gated_tracker(gate))
         deliver(live, source, 3)  # captured, not yet tracked
         live.start_recording(lambda: rows, lambda: pictures)
         assert live.first_recorded_index is None
@@ -353,7 +360,7 @@ def test_live_session_raw_fault_keeps_session_recording() -> None:
     source = ControlledSource()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"), fault_at=2)
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: rows, lambda: pictures)
         deliver_tracked(live, source, 10)
         assert live.stop_recording() == OUT
@@ -378,7 +385,7 @@ def test_live_session_camera_loss_is_reported_and_stored() -> None:
     with LiveSession(source) as live:
         live.handle_notice(CameraLost("Xtion"))
         assert math.isnan(live.drain_events()[0].time_s)
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 1)
         live.handle_notice(CameraLost("Xtion"))
@@ -395,7 +402,7 @@ def test_live_session_low_disk_is_reported_once(tmp_path: Path, monkeypatch: pyt
     source, sink = ControlledSource(), FakeSession(tmp_path / "session.h5")
     with LiveSession(source, LiveSettings(folder=tmp_path)) as live:
         assert live.counters().disk_free_bytes == 30_000_000
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 100)
         wait_until(lambda: live.counters().rows_written == 100)
@@ -428,7 +435,7 @@ def test_live_session_file_loses_no_frame() -> None:
 
     def pipeline(frame: Frame) -> TrackedFrame:
         time.sleep(0.002)
-        return tracked(frame)
+        return make_tracked_frame(frame)
 
     source = ControlledSource(total=120)
     source.let(200)
@@ -448,7 +455,7 @@ def test_live_session_waiting_file_can_be_stopped() -> None:
     source, gate = ControlledSource(total=50), Gate()
     source.let(60)
     live = LiveSession(source, LiveSettings(max_waiting_frames=2), is_file=True)
-    live.start_tracking(gated_tracker(gate))
+    live.start_tracking(make_gated_tracker(gate))
     live.start()
     wait_until(lambda: live.counters().frames_waiting == 2)
     threading.Timer(0.1, gate.open).start()
@@ -461,7 +468,7 @@ def test_live_session_stopped_file_ends_early() -> None:
 
     def slow(picture: Frame) -> TrackedFrame:
         time.sleep(0.001)
-        return tracked(picture)
+        return make_tracked_frame(picture)
 
     live = LiveSession(source, is_file=True)
     live.start_tracking(slow)

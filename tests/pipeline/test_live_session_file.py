@@ -14,7 +14,7 @@ from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.measurement import RecordedSession
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_outline
-from tests.pipeline.live_fakes import ControlledSource, tracked, wait_until
+from tests.pipeline.live_fakes import ControlledSource, make_tracked_frame, wait_until
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
 
@@ -25,7 +25,7 @@ def begin(path: Path) -> RecordedSession:
 def test_recorded_session_becomes_complete_file(tmp_path: Path) -> None:
     source, path = ControlledSource(dropped_before=1), tmp_path / "session.journal"
     with LiveSession(source) as live:
-        live.start_tracking(tracked)
+        live.start_tracking(make_tracked_frame)
         live.start_recording(lambda: begin(path))
         for count in range(1, 41):
             source.let(1)

@@ -15,7 +15,7 @@ import pytest
 from carpus.core.calibration.result import Clicks
 from carpus.core.model.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.lsl_stream import SampleStream, build_sample, list_channels
-from tests.session.samples import make_frame, time_of
+from tests.session.samples import compute_time, make_frame
 
 SETTINGS = "[lab]\nKnownPeers = {127.0.0.1}\n[multicast]\nResolveScope = machine\n"
 LISTENER = """
@@ -45,7 +45,7 @@ def test_lsl_stream_is_read_by_another_process(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr("carpus.core.pipeline.lsl_stream.LIVE_ID", source)
     names = joint_angle_names()
     begun_s = pylsl.local_clock()
-    offset_s = begun_s - time_of(0)
+    offset_s = begun_s - compute_time(0)
     clicks = Clicks("left", HAND21, np.zeros((21, 2)))
     stream = SampleStream.open(clicks, 30.0, dip_free=False, clock=lambda: begun_s)
     listener = subprocess.Popen(
@@ -58,7 +58,7 @@ def test_lsl_stream_is_read_by_another_process(tmp_path: Path, monkeypatch: pyte
         frames = [make_frame(row, HAND21) for row in range(5)]
         for frame in frames:
             stream.on_frame(frame)
-        stream.on_event(time_of(2), "repetition")
+        stream.on_event(compute_time(2), "repetition")
         out, err = listener.communicate(timeout=60)
     finally:
         listener.kill()
@@ -70,8 +70,10 @@ def test_lsl_stream_is_read_by_another_process(tmp_path: Path, monkeypatch: pyte
     assert (read["type"], read["rate"]) == ("MoCap", 30.0)
     for row, (frame, (values, time_s)) in enumerate(zip(frames, read["samples"], strict=True)):
         assert np.allclose(values, build_sample(frame), rtol=1e-6, atol=1e-6, equal_nan=True)
-        assert time_s == pytest.approx(time_of(row) + offset_s, abs=1e-3), "the time of the picture, not of sending"
+        assert time_s == pytest.approx(compute_time(row) + offset_s, abs=1e-3), (
+            "the time of the picture, not of sending"
+        )
     flexion = [channel.label for channel in said].index("wrist_flexion")
     assert read["samples"][0][0][flexion] == pytest.approx(np.degrees(frames[0].kinematics.angles_rad[1]), rel=1e-5)
     assert read["event"][0] == ["repetition"]
-    assert read["event"][1] == pytest.approx(time_of(2) + offset_s, abs=1e-3)
+    assert read["event"][1] == pytest.approx(compute_time(2) + offset_s, abs=1e-3)

@@ -25,7 +25,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.smoother.smoother_record import FilterSteps
 from carpus.core.tracking.tracker import Tracker
-from tests.accuracy.carpus import measured_hand
+from tests.accuracy.carpus import measure_still_hand
 from tests.pipeline.live_fakes import wait_until
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
@@ -50,13 +50,13 @@ def sequence() -> MeasurementSequence:
 
 @lru_cache(maxsize=1)
 def hand_and_start() -> tuple[TrackedHand, float]:
-    hand, neutral_ends_s = measured_hand(sequence(), CalibrationSettings())
+    hand, neutral_ends_s = measure_still_hand(sequence(), CalibrationSettings())
     assert hand.calibration is not None
     settings = noise_from_neutral(hand.noise, neutral_ends_s, TrackerSettings()).adapt_settings(TrackerSettings())
     return TrackedHand(hand.calibration, sequence().truth.camera, settings), neutral_ends_s
 
 
-def tracked_hand() -> TrackedHand:
+def track_hand() -> TrackedHand:
     return hand_and_start()[0]
 
 
@@ -91,9 +91,9 @@ def assert_same(found: Motion, expected: Motion) -> None:
 
 
 @contextmanager
-def begun() -> Iterator[SmoothingProcess]:
+def begin_smoothing() -> Iterator[SmoothingProcess]:
     """A process that runs and has been sent nothing but the hand."""
-    running = SmoothingProcess(tracked_hand(), chunk_s=PIECE_S, lag_s=LAG_S)
+    running = SmoothingProcess(track_hand(), chunk_s=PIECE_S, lag_s=LAG_S)
     try:
         wait_until(lambda: running.pid is not None)
         yield running
@@ -102,28 +102,28 @@ def begun() -> Iterator[SmoothingProcess]:
 
 
 @lru_cache(maxsize=1)
-def looked_back_here() -> tuple[int, Motion]:
+def smooth_locally() -> tuple[int, Motion]:
     """How many pieces there are, and their motion, without a process."""
-    here = ChunkedSmoother(tracked_hand(), PIECE_S, LAG_S)
+    here = ChunkedSmoother(track_hand(), PIECE_S, LAG_S)
     pieces = [piece for kept in steps() for piece in here.add_steps(kept)]
     pieces += here.finish()
-    return len(pieces), joined([piece.motion for piece in pieces])
+    return len(pieces), join_pieces([piece.motion for piece in pieces])
 
 
-def joined(motions: Sequence[Motion]) -> Motion:
+def join_pieces(motions: Sequence[Motion]) -> Motion:
     return Motion(**{one.name: np.concatenate([getattr(motion, one.name) for motion in motions]) for one in FIELDS})
 
 
-def at_rows(motion: Motion, rows: slice) -> Motion:
+def select_rows(motion: Motion, rows: slice) -> Motion:
     return Motion(**{one.name: getattr(motion, one.name)[rows] for one in FIELDS})
 
 
 def test_smoothing_process_equals_local_smoother() -> None:
     """Behind the tracking, until it is waited for."""
     own = os.getpriority(os.PRIO_PROCESS, 0)
-    count, expected = looked_back_here()
+    count, expected = smooth_locally()
     assert count >= 3
-    with begun() as running:
+    with begin_smoothing() as running:
         pid = running.pid
         assert pid is not None
 
@@ -146,7 +146,7 @@ def test_smoothing_process_pop_and_finish_give_all_frames() -> None:
     """Every third frame is recorded, as if there had been pauses."""
     every_third = slice(2, None, 3)
     recorded, out = times_s()[every_third], []
-    with begun() as running:
+    with begin_smoothing() as running:
         for number, kept in enumerate(steps()):
             running.add_steps(kept)
             if number == 120:
@@ -158,7 +158,7 @@ def test_smoothing_process_pop_and_finish_give_all_frames() -> None:
         given = len(out[0].position_m)
         assert 0 < given < 40
         out.append(running.finish(recorded[given:]))
-    assert_same(joined(out), at_rows(looked_back_here()[1], every_third))
+    assert_same(join_pieces(out), select_rows(smooth_locally()[1], every_third))
 
 
 def test_smoother_steps_one_by_one_equal_tracker_history() -> None:
@@ -170,7 +170,7 @@ def test_smoother_steps_one_by_one_equal_tracker_history() -> None:
             tracker.pop_steps()
 
     there = live_tracker(begin_recording)
-    whole = ChunkedSmoother(tracked_hand(), 1e6, 1e6)
+    whole = ChunkedSmoother(track_hand(), 1e6, 1e6)
     assert not any(whole.add_steps(kept) for kept in steps())
     (rest,) = whole.finish()
     assert rest.timestamp_s.tolist() == times_s()
@@ -191,7 +191,7 @@ def test_smoothing_process_dead_or_hanging_raises_at_finish(
 ) -> None:
     for name, value in limit.items():
         monkeypatch.setattr(smoothing, name, value)
-    with begun() as running:
+    with begin_smoothing() as running:
         assert running.pid is not None
         os.kill(running.pid, blow)
         for kept in steps():
@@ -208,7 +208,7 @@ def test_smoothing_process_failed_start_raises_at_finish(monkeypatch: pytest.Mon
         raise OSError("no process left")
 
     monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
-    running = SmoothingProcess(tracked_hand())
+    running = SmoothingProcess(track_hand())
     running.add_steps(steps()[0])
     with pytest.raises(SmoothingFailed) as told:
         running.finish(times_s())
@@ -216,7 +216,7 @@ def test_smoothing_process_failed_start_raises_at_finish(monkeypatch: pytest.Mon
 
 
 def test_smoothing_process_fault_is_one_line(capfd: pytest.CaptureFixture[str]) -> None:
-    with begun() as running:
+    with begin_smoothing() as running:
         running.add_steps("no steps")  # type: ignore[arg-type]
         running.add_steps(steps()[0])
         with pytest.raises(SmoothingFailed) as told:

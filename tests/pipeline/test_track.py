@@ -34,7 +34,7 @@ from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
-from tests.rendered import LEFT_DEVIATION, Rendered, truth_in
+from tests.rendered import LEFT_DEVIATION, Rendered, read_truth
 from tests.session.samples import add_pictures, make_frame
 
 
@@ -61,7 +61,7 @@ def made(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Made:
     told: list[tuple[int, int | None]] = []
     said = {"exercise": "radial and ulnar", "subject_id": "P-7"}
     report = track(folder, clicks, session, progress=lambda *at: told.append(at), **said)
-    return Made(folder, truth_in(LEFT_DEVIATION, folder), session, report, told)
+    return Made(folder, read_truth(LEFT_DEVIATION, folder), session, report, told)
 
 
 def track(folder: Path, clicks: Clicks, output: Path, settings: TrackSettings | None = None, **kwargs) -> TrackReport:  # type: ignore[no-untyped-def]
@@ -72,7 +72,7 @@ def track(folder: Path, clicks: Clicks, output: Path, settings: TrackSettings | 
         source.close()
 
 
-def again(made: Made, output: Path, settings: TrackSettings | None = None) -> TrackReport:
+def retrack_again(made: Made, output: Path, settings: TrackSettings | None = None) -> TrackReport:
     return retrack_session(made.session, output, settings or TrackSettings())
 
 
@@ -124,7 +124,7 @@ def test_track_recording_smoothed_angles_are_nearer(made: Made) -> None:
 
 
 def test_retrack_from_detections_gives_equal_angles(made: Made, tmp_path: Path) -> None:
-    report = again(made, tmp_path / "again.h5")
+    report = retrack_again(made, tmp_path / "again.h5")
     assert (report.frames, report.tracked) == (made.report.frames, made.report.tracked)
     for group in ("wrist", "smoothed/wrist"):
         assert np.array_equal(angles(tmp_path / "again.h5", group), angles(made.session, group))
@@ -155,12 +155,12 @@ def test_track_lazy_frames_give_equal_session(made: Made, tmp_path: Path) -> Non
 def test_retrack_keeps_old_file_and_uses_new_settings(made: Made, tmp_path: Path) -> None:
     before = digest(made.session)
     colour_only = replace(TrackSettings(), tracker=TrackerSettings(use_depth=False), smooth=False)
-    again(made, tmp_path / "colour.h5", colour_only)
+    retrack_again(made, tmp_path / "colour.h5", colour_only)
     assert digest(made.session) == before
     assert not np.allclose(angles(tmp_path / "colour.h5"), angles(made.session))
     assert read_session(tmp_path / "colour.h5").smoothed is None
     with pytest.raises(OutputExists):
-        again(made, tmp_path / "colour.h5")
+        retrack_again(made, tmp_path / "colour.h5")
 
 
 def test_track_recording_existing_output_raises(made: Made, tmp_path: Path) -> None:
@@ -178,13 +178,13 @@ def test_track_recording_without_frames_raises(made: Made, tmp_path: Path, monke
     assert list(tmp_path.iterdir()) == []
 
 
-def copy_of(made: Made, to: Path) -> Path:
+def copy_session(made: Made, to: Path) -> Path:
     shutil.copytree(made.folder, to)
     return to
 
 
 def test_track_recording_damaged_image_leaves_no_output(made: Made, tmp_path: Path) -> None:
-    folder = copy_of(made, tmp_path / "damaged")
+    folder = copy_session(made, tmp_path / "damaged")
     pictures = sorted((folder / "rgb").iterdir())
     pictures[len(pictures) // 2].write_bytes(pictures[0].read_bytes()[:400])
     (tmp_path / "out").mkdir()

@@ -8,14 +8,14 @@ from collections.abc import Iterator
 import pytest
 
 from tests.records.postgres import Cluster
-from tests.records.samples import opened
+from tests.records.samples import open_store
 
 
 @pytest.fixture(scope="session")
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
     """``model`` is a database with the tables of a store and nothing in them, to be copied."""
     made = Cluster()
-    with opened(tmp_path_factory.mktemp("model"), made.new_database("model")) as house:
+    with open_store(tmp_path_factory.mktemp("model"), made.new_database("model")) as house:
         assert house.names() == []
     yield made
     made.end()

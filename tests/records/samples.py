@@ -30,7 +30,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import HomePlan, Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import new_header
-from tests.session.samples import begun
+from tests.session.samples import begin_session
 
 LONG_S = 120.0
 T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
@@ -46,7 +46,7 @@ _RECORDED: dict[tuple[Any, ...], list[bytes]] = {}
 _ASKED = Counter[tuple[str, tuple[Any, ...]]]()
 
 
-def written(patient: Patient) -> Patient:
+def strip_stored_fields(patient: Patient) -> Patient:
     """What a person wrote of a patient, without what the store adds."""
     return Patient(**{one.name: getattr(patient, one.name) for one in fields(Patient) if not one.kw_only})
 
@@ -67,7 +67,7 @@ class House:
 
 
 @contextmanager
-def opened(
+def open_store(
     folder: Path, url: str = "", tell: Callable[[CarpusFault], None] = lambda _: None, sessions: Path | None = None
 ) -> Iterator[House]:
     """The store of a folder, open."""
@@ -77,7 +77,7 @@ def opened(
         )
 
 
-def until(what: Callable[[], bool]) -> None:
+def wait_until(what: Callable[[], bool]) -> None:
     """Wait for it."""
     end = time.monotonic() + LONG_S
     while not what():
@@ -110,7 +110,7 @@ def record(
         recording_id=recording_id,
         parameters=json.dumps({"source": {SIMULATED: "yes"}}) if simulated else "{}",
     )
-    begun(path, header, frames).close()
+    begin_session(path, header, frames).close()
     written.append(path.read_bytes())
     return path
 
@@ -157,7 +157,7 @@ def traces(folder: Path, *words: str) -> list[str]:
     return found
 
 
-def kept(folder: Path, patient: Patient, *sessions: tuple[Path, datetime, str]) -> str:
+def store_patient(folder: Path, patient: Patient, *sessions: tuple[Path, datetime, str]) -> str:
     """Copies of session files, each with its moment and who recorded it, in a data folder as those of a new patient,
     whose identity is given."""
     with closing(DataFolder(folder)) as library:

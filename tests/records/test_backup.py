@@ -53,7 +53,7 @@ from carpus.core.records.restoring import (
     restore,
 )
 from carpus.core.records.store import Store
-from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, opened, traces, written
+from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, open_store, strip_stored_fields, traces
 
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
 
@@ -61,7 +61,7 @@ NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
 @pytest.fixture(scope="module")
 def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("kept")
-    with opened(folder) as house:
+    with open_store(folder) as house:
         linden = house.patients.add(LINDEN)
         measure(house, linden, T0)
         measure(house, linden, T0 + timedelta(days=1))
@@ -81,7 +81,7 @@ def place(tmp_path: Path) -> Path:
     return tmp_path / "disk"
 
 
-def backed_up(data: Path, place: Path, now: datetime = NOW, **options: Any) -> Backup:
+def make_backup(data: Path, place: Path, now: datetime = NOW, **options: Any) -> Backup:
     return create_backup(data, place, now=now, **options)
 
 
@@ -94,7 +94,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     }
 
 
-def restored(place: Path, made: Backup, target: Path, settings: Path | None = None) -> None:
+def restore_backup(place: Path, made: Backup, target: Path, settings: Path | None = None) -> None:
     restore(made, place, target, LogHistory(), settings_folder=settings)
     activate_restored(target, NOW)
 
@@ -128,27 +128,27 @@ def test_backup_of_read_only_folder_fails_only_while_it_is_written(
     monkeypatch.setattr(Path, "read_bytes", read)
     if trouble:
         with pytest.raises(PatientListUnreadable) as told:
-            backed_up(data, tmp_path / "place")
+            make_backup(data, tmp_path / "place")
         assert type(told.value) is {
             "a journal": PatientListReadOnly, "a journal while it is read": PatientListReadOnly,
             "another computer writes": PatientListBusy, "damaged": PatientListUnreadable,
         }[trouble]  # fmt: skip
         return
     with Store(data, copy=copy_to_memory(store)) as kept:
-        assert [written(record) for record in Patients(kept).search()] == [LINDEN]
-    made = backed_up(data, tmp_path / "place")
+        assert [strip_stored_fields(record) for record in Patients(kept).search()] == [LINDEN]
+    made = make_backup(data, tmp_path / "place")
     monkeypatch.undo()
-    restored(tmp_path / "place", made, tmp_path / "again")
-    with opened(tmp_path / "again") as house:
+    restore_backup(tmp_path / "place", made, tmp_path / "again")
+    with open_store(tmp_path / "again") as house:
         assert house.names() == [LINDEN.pseudonym]
 
 
-def kept_on(data: Path, place: Path, *days: int) -> list[Backup]:
+def make_backups(data: Path, place: Path, *days: int) -> list[Backup]:
     """Back-ups made so many days ago, each of something else."""
     made = []
     for day in days:
         (data / "set_ups.json").write_text(json.dumps({"day": day}))
-        made.append(backed_up(data, place, NOW - timedelta(days=day)))
+        made.append(make_backup(data, place, NOW - timedelta(days=day)))
     return made
 
 
@@ -157,37 +157,37 @@ def test_restore_on_another_computer_brings_everything_back(data: Path, place: P
     settings.mkdir()
     for name in ("preferences", "lab"):
         (settings / f"{name}.toml").write_text("x = 1")
-    with opened(data) as house:  # it runs
-        made = backed_up(data, place, settings_folder=settings)
+    with open_store(data) as house:  # it runs
+        made = make_backup(data, place, settings_folder=settings)
         first = [entry.session_id for entry in house.index.patient_sessions(house.patients.search()[0].patient_id)]
     assert made.session_count == 2
     new, new_settings = tmp_path / "new" / "carpus", tmp_path / "new settings"
     new_settings.mkdir()
     (new_settings / "lab.toml").write_text("x = 2")
-    restored(place, made, new, new_settings)
+    restore_backup(place, made, new, new_settings)
     assert contents(new) == contents(data)
     assert (new_settings / "preferences.toml").read_text() == "x = 1"
     assert (new_settings / "lab.toml").read_text() == "x = 2", "settings that are there stay"
     assert {path.stat().st_mode & 0o077 for path in new.rglob("*")} == {0}
-    with opened(new) as house:
+    with open_store(new) as house:
         (patient,) = house.patients.search()
-        assert written(patient) == LINDEN
+        assert strip_stored_fields(patient) == LINDEN
         assert [entry.session_id for entry in house.index.patient_sessions(patient.patient_id)] == first
         assert house.files.scan().session_count == 0
     with pytest.raises(OutputExists):
-        restored(place, made, new)
+        restore_backup(place, made, new)
 
 
 def test_backup_stores_equal_content_once(data: Path, place: Path) -> None:
-    first = backed_up(data, place)
+    first = make_backup(data, place)
     objects = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
-    second = backed_up(data, place, NOW + timedelta(days=1))
+    second = make_backup(data, place, NOW + timedelta(days=1))
     assert [one.name for one in list_backups(place)] == [second.name, first.name]
     after = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
     kept = [path for path in objects if objects[path] == after.get(path)]
     assert len(after) <= len(objects) + 1
     assert len(kept) >= len(objects) - 1, "only the store is copied anew"
-    backed_up(data, place)
+    make_backup(data, place)
     assert len(list_backups(place)) == 3, "two of one second are two"
 
 
@@ -195,7 +195,7 @@ def test_backup_stores_equal_content_once(data: Path, place: Path) -> None:
 def test_verify_backup_flipped_bit_raises(
     data: Path, place: Path, tmp_path: Path, at: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made = backed_up(data, place)
+    made = make_backup(data, place)
     verify_backup(place, made)
     one = next(file for file in made.files if file.path.endswith(".h5"))
     content = place / OBJECTS / one.sha256[:2] / one.sha256
@@ -205,25 +205,25 @@ def test_verify_backup_flipped_bit_raises(
     with pytest.raises(BackupMismatch):
         verify_backup(place, made)
     with pytest.raises(BackupMismatch):
-        restored(place, made, tmp_path / "new")
+        restore_backup(place, made, tmp_path / "new")
     assert not list(tmp_path.glob("*new*")), "nothing is left"
-    backed_up(data, place, NOW + timedelta(days=1))
+    make_backup(data, place, NOW + timedelta(days=1))
     for later in list_backups(place):
         verify_backup(place, later)  # written anew, for the earlier one too
     monkeypatch.setattr(module, "hash_file", lambda *_, **__: "")
     with pytest.raises(BackupMismatch):
-        backed_up(data, place, NOW + timedelta(days=2))
+        make_backup(data, place, NOW + timedelta(days=2))
     assert len(list_backups(place)) == 2, "what could not be compared is no back-up"
 
 
 @pytest.mark.parametrize("where", [".", "sessions/backup", ".."])
 def test_create_backup_in_or_around_data_folder_is_refused(data: Path, where: str) -> None:
     with pytest.raises(BackupFolderUnsuited):
-        backed_up(data, data / where)
+        make_backup(data, data / where)
 
 
 def test_plan_restore_lists_changes_and_restore_keeps_old_folder(data: Path, place: Path) -> None:
-    made = backed_up(data, place)
+    made = make_backup(data, place)
     gone, changed = sorted((data / "sessions").rglob("*.h5"))
     gone.unlink()
     changed.write_bytes(b"changed")
@@ -241,7 +241,7 @@ def test_plan_restore_lists_changes_and_restore_keeps_old_folder(data: Path, pla
 
 
 def test_prune_backups_keeps_newest_and_one_per_month(data: Path, place: Path) -> None:
-    kept_on(data, place, 0, 1, 2, 40, 41, 70, 900)
+    make_backups(data, place, 0, 1, 2, 40, 41, 70, 900)
     assert prune_backups(place, 2, 24, NOW) == 3
     left = [(NOW - one.made).days for one in list_backups(place)]
     assert left == [0, 1, 40, 70]
@@ -252,7 +252,7 @@ def test_prune_backups_keeps_newest_and_one_per_month(data: Path, place: Path) -
 
 
 def test_prune_backups_keeps_contents_of_newer_format(data: Path, place: Path) -> None:
-    _, newer, _ = kept_on(data, place, 900, 800, 0)
+    _, newer, _ = make_backups(data, place, 900, 800, 0)
     path = place / BACKUPS / f"{newer.name}.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"format_version": 99}))
     assert prune_backups(place, 1, 0, NOW) == 1
@@ -264,7 +264,7 @@ def test_prune_backups_unreadable_backup_loses_nothing(
     data: Path, place: Path, monkeypatch: pytest.MonkeyPatch, at_reading: int
 ) -> None:
     real, read = Path.read_text, list[Path]()
-    made = kept_on(data, place, 1, 0)[0]
+    made = make_backups(data, place, 1, 0)[0]
 
     def faulty(path: Path, *told: Any, **named: Any) -> str:
         read.append(path)
@@ -315,41 +315,41 @@ def test_create_backup_follows_links(data: Path, place: Path, tmp_path: Path) ->
     (data / "sessions").symlink_to(elsewhere)
     (data / "sessions" / "around").symlink_to(data)  # in a circle
     (data / "limits.json").symlink_to(data / "set_ups.json")
-    made = backed_up(data, place)
+    made = make_backup(data, place)
     assert made.session_count == 2
-    restored(place, made, tmp_path / "new")
+    restore_backup(place, made, tmp_path / "new")
     assert len([path for path in (tmp_path / "new" / "sessions").rglob("*.h5") if not path.is_symlink()]) == 2
     assert (tmp_path / "new" / "limits.json").read_text() == "{}"
     with pytest.raises(BackupFolderUnsuited):
-        backed_up(data, elsewhere / "backup")
+        make_backup(data, elsewhere / "backup")
 
 
 def test_create_backup_contains_sessions_of_share(data: Path, place: Path, tmp_path: Path) -> None:
     share = tmp_path / "share"
     (data / "sessions").rename(share)
-    made = backed_up(data, place, sessions_folder=share)
+    made = make_backup(data, place, sessions_folder=share)
     assert (made.session_count, made.missing_count) == (2, 0)
-    restored(place, made, tmp_path / "new")
+    restore_backup(place, made, tmp_path / "new")
     assert contents(tmp_path / "new" / "sessions") == contents(share)
     with pytest.raises(BackupFolderUnsuited):
         create_backup(data, share / "backup", sessions_folder=share)
     share.rename(tmp_path / "away")
     with pytest.raises(BackupIncomplete):
-        backed_up(data, place, sessions_folder=share)
+        make_backup(data, place, sessions_folder=share)
 
 
 def test_create_backup_twice_at_once_one_waits(data: Path, place: Path) -> None:
     """What only an old back-up had goes with that one, unless a back-up that runs has just found it there."""
     met = []
-    backed_up(data, place, NOW - timedelta(days=40))
+    make_backup(data, place, NOW - timedelta(days=40))
 
     def other(done: int, _: int) -> None:
         assert prune_backups(place, 0, 0, NOW) == 0
         with pytest.raises(OutputBusy):
-            backed_up(data, place)
+            make_backup(data, place)
         met.append(done)
 
-    made = backed_up(data, place, progress=other)
+    made = make_backup(data, place, progress=other)
     assert met
     verify_backup(place, made)
     assert prune_backups(place, 1, 0, NOW) == 1
@@ -366,7 +366,7 @@ def test_create_backup_missing_session_file_is_incomplete(data: Path, place: Pat
     if lost == "link":
         sessions.symlink_to(tmp_path / "nowhere")
     with pytest.raises(BackupIncomplete) as told:
-        backed_up(data, place)
+        make_backup(data, place)
     assert int(told.value.detail) == {"file": 1, "folder": 2, "link": 3}[lost]
     (made,) = list_backups(place)
     assert made.missing_count == int(told.value.detail)
@@ -375,11 +375,11 @@ def test_create_backup_missing_session_file_is_incomplete(data: Path, place: Pat
 
 def test_prune_backups_deletes_leftovers_of_killed_backup(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "place"
-    made = backed_up(data, place)
+    made = make_backup(data, place)
     left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.part"]
     for path in left:
         path.write_bytes(b"half")
-    again = backed_up(data, place, NOW + timedelta(hours=1))
+    again = make_backup(data, place, NOW + timedelta(hours=1))
     assert prune_backups(place, 9, 9, NOW) == 0
     assert not any(path.exists() for path in left)
     for one in (made, again):
@@ -414,13 +414,13 @@ class Trouble:
 def test_create_backup_failing_at_any_step_keeps_others(
     kind: str, data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    backed_up(data, place)
+    make_backup(data, place)
     for number in itertools.count():
         (data / "set_ups.json").write_text(f"{number}")
         with monkeypatch.context() as patched:
             trouble = Trouble(number, kind, patched)
             try:
-                backed_up(data, place, NOW + timedelta(minutes=number))
+                make_backup(data, place, NOW + timedelta(minutes=number))
             except KeyboardInterrupt:
                 assert kind == "killed"
             except DiskFull:
@@ -439,7 +439,7 @@ def test_create_backup_failing_at_any_step_keeps_others(
 def test_restore_failing_at_any_step_loses_and_leaves_nothing(
     kind: str, data: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made, before = backed_up(data, place), contents(data)
+    made, before = make_backup(data, place), contents(data)
     (data / "set_ups.json").write_text("since")
     for number in itertools.count():
         with monkeypatch.context() as patched:
@@ -469,12 +469,12 @@ def test_restore_failing_at_any_step_loses_and_leaves_nothing(
 
 @pytest.mark.parametrize("what", ["patient", "session"])
 def test_restore_does_not_bring_back_erased_since(what: str, data: Path, place: Path, tmp_path: Path) -> None:
-    with opened(data) as house:
+    with open_store(data) as house:
         heron = house.patients.add(HERON)
         stays = measure(house, heron, T0)
         linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
         first, second = (one.session_id for one in house.index.patient_sessions(linden))
-        made = backed_up(data, place)
+        made = make_backup(data, place)
         plan = (
             erasure.plan_patient(house.store, linden) if what == "patient" else erasure.plan_session(house.store, first)
         )
@@ -485,7 +485,7 @@ def test_restore_does_not_bring_back_erased_since(what: str, data: Path, place: 
     assert restore(made, place, tmp_path / "new", past) == 1
     activate_restored(tmp_path / "new", NOW)
     assert traces(tmp_path / "new", first, *((linden, second, *NAMES) if what == "patient" else ())) == []
-    with opened(tmp_path / "new") as house:
+    with open_store(tmp_path / "new") as house:
         assert house.names() == (["Heron 17"] if what == "patient" else ["Heron 17", "Linden 42"])
         assert house.index.get(stays).path.exists()
         assert what == "patient" or house.index.get(second).path.exists()
@@ -496,11 +496,11 @@ def test_restore_does_not_bring_back_erased_since(what: str, data: Path, place: 
 
 
 def test_restore_without_data_folder_uses_log_of_newest_backup(data: Path, place: Path, tmp_path: Path) -> None:
-    old = backed_up(data, place)
-    with opened(data) as house:
+    old = make_backup(data, place)
+    with open_store(data) as house:
         linden = house.patients.id_of_pseudonym(LINDEN.pseudonym)
         erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
-    backed_up(data, place, NOW + timedelta(days=1))
+    make_backup(data, place, NOW + timedelta(days=1))
     shutil.rmtree(data)
     assert restore(old, place, data, read_history(place, None)) == 1
     activate_restored(data, NOW)
@@ -508,7 +508,7 @@ def test_restore_without_data_folder_uses_log_of_newest_backup(data: Path, place
 
 
 def test_prune_backups_future_date_costs_no_backup(data: Path, place: Path) -> None:
-    kept_on(data, place, 0, 1, 2, 3, -3, -2)
+    make_backups(data, place, 0, 1, 2, 3, -3, -2)
     assert prune_backups(place, 2, 0, NOW) == 2
     assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
     assert prune_backups(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
@@ -520,16 +520,16 @@ def test_restore_failing_leaves_no_settings(data: Path, place: Path, tmp_path: P
     settings.mkdir()
     for name in ("a", "b"):
         (settings / f"{name}.toml").write_text(f"{name} = 1")
-    made = backed_up(data, place, settings_folder=settings)
+    made = make_backup(data, place, settings_folder=settings)
     last = next(one for one in made.files if one.path.endswith("b.toml")).sha256
     (place / OBJECTS / last[:2] / last).write_text("b = 2")
     with pytest.raises(BackupMismatch):
-        restored(place, made, tmp_path / "new", tmp_path / "new settings")
+        restore_backup(place, made, tmp_path / "new", tmp_path / "new settings")
     assert list((tmp_path / "new settings").iterdir()) == []
 
 
 def test_prune_backups_without_list_deletes_nothing(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    made = backed_up(data, place)
+    made = make_backup(data, place)
     (place / BACKUPS).rename(place / "away")
     (place / BACKUPS).mkdir()
     assert prune_backups(place, 9, 24, NOW) == 0
@@ -556,5 +556,5 @@ def test_create_backup_unreadable_file_is_reported_rest_included(
 
     monkeypatch.setattr(Path, "open", refused)
     with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
-        backed_up(data, place)
+        make_backup(data, place)
     assert list_backups(place)[0].session_count == 2

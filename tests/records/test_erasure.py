@@ -35,7 +35,19 @@ from carpus.core.records.retention import find_due_patients, retention_end
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.values import Patient
 from carpus.core.session.reader import read_outline, read_session, verify
-from tests.records.samples import HERON, LINDEN, NAMES, T0, House, fill, measure, opened, record, traces, written
+from tests.records.samples import (
+    HERON,
+    LINDEN,
+    NAMES,
+    T0,
+    House,
+    fill,
+    measure,
+    open_store,
+    record,
+    strip_stored_fields,
+    traces,
+)
 
 
 @pytest.fixture
@@ -45,7 +57,7 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def house(folder: Path) -> Iterator[House]:
-    with opened(folder) as found:
+    with open_store(folder) as found:
         yield found
 
 
@@ -89,7 +101,7 @@ def test_erase_session_deletes_all_results_and_copies(folder: Path, house: House
 
 
 def test_erase_patient_leaves_no_trace_in_folder(folder: Path) -> None:
-    with opened(folder) as house:
+    with open_store(folder) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         sessions = fill(house, linden)
         fill(house, heron)
@@ -101,7 +113,7 @@ def test_erase_patient_leaves_no_trace_in_folder(folder: Path) -> None:
         assert traces(folder, *words) == [], "while it is open: also free pages and journals"
         assert house.names() == ["Heron 17"]
         (other,) = house.patients.search()
-        assert (written(other), other.session_count) == (HERON, 3)
+        assert (strip_stored_fields(other), other.session_count) == (HERON, 3)
         kept = [
             session_records.read_comments(house.store, one.session_id) for one in house.index.patient_sessions(heron)
         ]
@@ -185,14 +197,14 @@ def test_erase_while_share_is_away_deletes_nothing(
 ) -> None:
     share = tmp_path / "share"
     share.mkdir()
-    with opened(folder, sessions=share) as house:
+    with open_store(folder, sessions=share) as house:
         linden = house.patients.add(LINDEN)
         path = house.index.get(measure(house, linden, T0)).path
         share.rename(tmp_path / "away")
         with pytest.raises(FolderMissing):
             erasure.plan_patient(house.store, linden)
         house.store.execute_local(update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
-    with opened(folder, sessions=share) as house:
+    with open_store(folder, sessions=share) as house:
         erasure.resume_erasures(house.store, house.log)
         share.mkdir()  # where it is mounted
         erasure.resume_erasures(house.store, house.log)
@@ -257,7 +269,7 @@ def test_plan_patient_lists_unassigned_files_and_erase_keeps_them(folder: Path, 
 
 @pytest.mark.parametrize("after", ["mark", "files"])
 def test_erase_interrupted_is_finished_at_next_start(folder: Path, monkeypatch: pytest.MonkeyPatch, after: str) -> None:
-    with opened(folder) as house:
+    with open_store(folder) as house:
         linden = house.patients.add(LINDEN)
         sessions = fill(house, linden)
         plan = erasure.plan_patient(house.store, linden)
@@ -324,7 +336,7 @@ def test_archive_removes_from_lists_and_unarchive_restores(house: House) -> None
     assert house.patients.get(linden).session_count == 1
     house.patients.archive(linden, T0)
     assert [record.patient_id for record in house.patients.search()] == [heron]
-    assert written(house.patients.get(linden)) == LINDEN
+    assert strip_stored_fields(house.patients.get(linden)) == LINDEN
     assert house.patients.archive_times() == {linden: T0}
     assert [entry.session_id for entry, _, _ in house.index.list_archived()] == [second]
     again = measure(house, linden, T0 + timedelta(days=2), house.index.get(second).recording_id)
@@ -366,13 +378,13 @@ def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.Monk
         return tried
 
     monkeypatch.setattr(reserve, "MIN_FREE_BYTES", 0)
-    with opened(folder) as house:
+    with open_store(folder) as house:
         linden = house.patients.add(LINDEN)
         sessions = fill(house, linden)
     reserve.create_reserve(folder)
     assert (folder / reserve.RESERVE_FILE).stat().st_size == reserve.RESERVE_BYTES
     monkeypatch.setattr(store_module, "Database", full_while_kept(database.Database))
-    with opened(folder) as house:
+    with open_store(folder) as house:
         plan = erasure.plan_patient(house.store, linden)
         reserve.create_reserve(folder)
         with monkeypatch.context() as full:
@@ -380,7 +392,7 @@ def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.Monk
             erasure.erase(house.store, plan, house.log)
         assert traces(folder, *NAMES, linden, *sessions) == []
     monkeypatch.setattr(store_module, "Database", lambda _: (_ for _ in ()).throw(DiskFull(folder)))
-    with pytest.raises(DiskFull), opened(folder):  # no room is kept any more
+    with pytest.raises(DiskFull), open_store(folder):  # no room is kept any more
         pass
 
 
@@ -395,7 +407,7 @@ for words in json.loads(sys.argv[1]):
 
 def test_commands_on_full_disk_report_it(tmp_path: Path, folder: Path) -> None:
     """A limit of the system that no file may hold a byte: each write is refused as on a full disk."""
-    with opened(folder) as house:
+    with open_store(folder) as house:
         linden = house.patients.add(LINDEN)
         session = house.index.get(measure(house, linden, T0)).path
     create_backup(folder, tmp_path / "place")

@@ -17,11 +17,11 @@ from carpus.core.records.log import AuditLogWriter, read_log
 from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.store import Store
 from tests.commands import Command
-from tests.records.samples import LINDEN, T0, measure, opened, traces
+from tests.records.samples import LINDEN, T0, measure, open_store, traces
 
 
 def test_store_restores_and_reports_missing_log_trigger(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         house.log.write_entry("locked", "program")
         assert house.store.startup_faults == []
     with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
@@ -29,7 +29,7 @@ def test_store_restores_and_reports_missing_log_trigger(tmp_path: Path) -> None:
         database.execute("DELETE FROM deed")
         database.commit()
     for told in ([LogProtectionRestored], []):
-        with opened(tmp_path) as house:
+        with open_store(tmp_path) as house:
             assert [type(one) for one in house.store.startup_faults] == told
             house.log.write_entry("locked", "program")
             with pytest.raises(DatabaseError, match="only added to"):
@@ -38,7 +38,7 @@ def test_store_restores_and_reports_missing_log_trigger(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("facts", [{"path": "/data/sessions/Linden-42/s.h5"}, {"name": "Ada"}, {"name": "x" * 65}])
 def test_write_entry_fact_with_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         with pytest.raises(ValueError):
             house.log.write_entry("opened", "patient", "", **facts)
         assert read_log(house.store) == ()
@@ -46,7 +46,7 @@ def test_write_entry_fact_with_name_is_refused(tmp_path: Path, facts: dict[str, 
 
 def test_log_of_damaged_file_contains_no_id(tmp_path: Path) -> None:
     said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         for identity in said:
             house.log.write_entry("recovered", "session", identity)
         assert len({one.subject for one in read_log(house.store)}) == len(said)
@@ -76,7 +76,7 @@ NOTHING_THERE = (
 def test_reading_commands_work_in_read_only_folder(
     tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         linden = house.patients.add(LINDEN)
         measure(house, linden, T0)
         house.log.write_entry("opened", "patient", linden)
@@ -105,7 +105,7 @@ def test_log_command_creates_no_store(tmp_path: Path, command: Command) -> None:
 
 
 def test_read_log_skips_and_reports_damaged_entry(tmp_path: Path, command: Command) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         house.store.execute_local(insert(AUDIT_LOG).values(id="x", at_ns=0, facts="{"))
         house.log.write_entry("locked", "program")
     said = command("log", "--data-folder", tmp_path)

@@ -43,7 +43,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, T0, fill, measure, opened, record, traces, written
+from tests.records.samples import HERON, LINDEN, T0, fill, measure, open_store, record, strip_stored_fields, traces
 from tests.torture.wire import Wire
 
 GOLDEN = Path(__file__).with_name("golden") / "version-1.sqlite3"
@@ -76,10 +76,13 @@ def count(url: str, table: str) -> int:
 def test_server_shows_entries_on_other_computer_at_once(tmp_path: Path, cluster: Cluster) -> None:
     there, sessions = cluster.new_database("empty"), tmp_path / "share"
     sessions.mkdir()
-    with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
+    with (
+        open_store(tmp_path / "a", there, sessions=sessions) as a,
+        open_store(tmp_path / "b", there, sessions=sessions) as b,
+    ):
         linden = a.patients.add(LINDEN)
         session_ids = fill(a, linden)
-        assert (written(b.patients.get(linden)), b.patients.get(linden).session_count) == (LINDEN, 3)
+        assert (strip_stored_fields(b.patients.get(linden)), b.patients.get(linden).session_count) == (LINDEN, 3)
         assert b.names("erika MUSTER") == ["Linden 42"]
         assert b.index.get(session_ids[0]) == a.index.get(session_ids[0])
         assert b.files.scan().session_count == 0, "what one computer has looked at the other need not read"
@@ -119,7 +122,7 @@ def test_server_away_is_reported_and_sessions_listed_when_back(tmp_path: Path, c
         assert {one.pseudonym: one.session_count for one in library.patients.search()} == {
             "Linden 42": 1, "Typed 7": 1,
         }  # fmt: skip
-        assert written(library.patients.get(linden)) == LINDEN
+        assert strip_stored_fields(library.patients.get(linden)) == LINDEN
 
 
 def test_server_away_typed_pseudonym_becomes_listed_patient(tmp_path: Path, there: str) -> None:
@@ -139,7 +142,7 @@ def test_server_silent_is_left_after_seconds(
 ) -> None:
     monkeypatch.setattr(server, "STALL_TIMEOUT_S", 0.5)
     wire, url = wired
-    with opened(tmp_path, url) as house:
+    with open_store(tmp_path, url) as house:
         linden = house.patients.add(LINDEN)
         session_id = measure(house, linden, T0)
         wire.answers_come = False
@@ -155,7 +158,7 @@ def test_server_silent_is_left_after_seconds(
 
 
 def test_server_log_cannot_be_changed(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a", there) as a:
+    with open_store(tmp_path / "a", there) as a:
         a.log.write_entry("locked", "program")
     for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
         with pytest.raises(DBAPIError, match="only added to"), engine_of(there).begin() as connection:
@@ -166,16 +169,16 @@ def test_server_log_cannot_be_changed(tmp_path: Path, there: str) -> None:
 def test_server_newer_version_and_wrong_url_are_reported(tmp_path: Path, there: str) -> None:
     with engine_of(there).begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = '99'"))
-    with opened(tmp_path, there) as house, pytest.raises(PatientListVersionUnknown):
+    with open_store(tmp_path, there) as house, pytest.raises(PatientListVersionUnknown):
         house.names()
     for url in ("postgresql://", "postgresql://a:b:c@host:port/x"):
-        with pytest.raises((SettingsInvalid, ServerUnavailable)), opened(tmp_path, url) as house:
+        with pytest.raises((SettingsInvalid, ServerUnavailable)), open_store(tmp_path, url) as house:
             house.names()
 
 
 def test_server_erasure_elsewhere_deletes_files_here(tmp_path: Path, there: str) -> None:
     with closing(DataFolder(tmp_path / "b", url=there)) as b:
-        with opened(tmp_path / "a", there) as a:
+        with open_store(tmp_path / "a", there) as a:
             linden = b.patients.add(LINDEN)
             path = b.session_list.new_path(linden, "Linden 42", "WRIST_FE", "right", T0)
             b.session_list.add(record(path, "Linden 42", T0), linden)
@@ -187,14 +190,14 @@ def test_server_erasure_elsewhere_deletes_files_here(tmp_path: Path, there: str)
 
 
 def test_create_backup_contains_rows_of_server(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "data", there) as house:
+    with open_store(tmp_path / "data", there) as house:
         linden = house.patients.add(LINDEN)
         fill(house, linden)
         create_backup(tmp_path / "data", tmp_path / "place", copy_store=house.store.copy_to_memory)
         wanted = {name: house.store.rows(select(table).order_by(table.c.id)) for name, table in TABLES.items()}
     restore(list_backups(tmp_path / "place")[0], tmp_path / "place", tmp_path / "alone", LogHistory())
     activate_restored(tmp_path / "alone", T0)
-    with opened(tmp_path / "alone") as house:
+    with open_store(tmp_path / "alone") as house:
         for name, table in TABLES.items():
             assert house.store.rows(select(table).order_by(table.c.id)) == wanted[name], name
         names = house.names()
@@ -207,7 +210,7 @@ def test_server_first_version_is_migrated(tmp_path: Path, cluster: Cluster) -> N
     url = first_version(cluster)
     with engine_of(url).begin() as connection:
         connection.execute(text("INSERT INTO patient (id, folded, pseudonym) VALUES ('a', 'linden 42', 'Linden 42')"))
-    with opened(tmp_path, url) as house:
+    with open_store(tmp_path, url) as house:
         assert house.names() == ["Linden 42"]
         house.patients.change(replace(LINDEN, patient_id="a", version=house.patients.get("a").version))
         columns = inspect(engine_of(url))
@@ -258,7 +261,7 @@ def test_import_of_first_version_applies_queued_changes_once(tmp_path: Path, clu
         [["new", "comment", "d", {"session_id": gone, "text": "of nobody"}, 0, 17]],
         [["join", "diagnosis", "x", {"words": "Mallet finger", "version": 1}, 0, 18]],
     )  # fmt: skip
-    with opened(tmp_path / "a", url, told.append) as a:
+    with open_store(tmp_path / "a", url, told.append) as a:
         assert sorted(a.names()) == ["Heron 17", "Heron 17 (2)", "Linden 42"]
         assert a.patients.get(heron).pseudonym == "Heron 17 (2)"
         assert (a.patients.get(linden).note, a.patients.get(linden).session_count) == ("typed while away", 1)
@@ -268,21 +271,21 @@ def test_import_of_first_version_applies_queued_changes_once(tmp_path: Path, clu
     assert list((tmp_path / "a").glob("records*.sqlite3*")) == [], "it would keep the names of who is erased elsewhere"
     assert count(url, "diagnosis") == 1
     copy_of(tmp_path / "b", url, [["new", "diagnosis", "y", {"words": "Boutonniere"}, 0, 1]])
-    with opened(tmp_path / "b", url) as b:  # the same identity of a change: it was delivered, and its answer lost
+    with open_store(tmp_path / "b", url) as b:  # the same identity of a change: it was delivered, and its answer lost
         b.names()
     assert (count(url, "diagnosis"), count(url, "patient")) == (1, 3)
 
 
 def test_import_of_own_store_leaves_out_erased(tmp_path: Path, there: str) -> None:
-    with opened(tmp_path / "a") as a:
+    with open_store(tmp_path / "a") as a:
         linden, heron = a.patients.add(LINDEN), a.patients.add(HERON)
         fill(a, linden)
         session_records.add_comment(a.store, measure(a, heron, T0), "gone", "AB")
         measure(a, PRACTICE_PATIENT, T0 + timedelta(days=1))
         wanted = a.patients.get(linden)
-    with opened(tmp_path / "b", there) as b:
+    with open_store(tmp_path / "b", there) as b:
         b.log.write_entry("erased", "patient", heron)
-    with opened(tmp_path / "a", there) as a:
+    with open_store(tmp_path / "a", there) as a:
         assert a.patients.search() == [wanted]
         assert (count(there, "session"), count(there, "comment"), count(there, "made")) == (3, 3, 3)
         assert fingerprint(heron) in {one.subject for one in read_log(a.store)}
@@ -293,7 +296,7 @@ def test_import_of_own_store_leaves_out_erased(tmp_path: Path, there: str) -> No
 
 def test_import_of_damaged_copy_rescues_rows(tmp_path: Path, there: str) -> None:
     told: list[CarpusFault] = []
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         for number in range(300):
             house.patients.add(Patient(f"Oak {number}", "left"))
     content = bytearray((tmp_path / STORE_FILE).read_bytes())

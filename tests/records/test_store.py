@@ -41,19 +41,19 @@ from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient, Therapist
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
-from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, written
+from tests.records.samples import HERON, LINDEN, T0, House, measure, open_store, record, strip_stored_fields
 
 BESIDE = (".jpg", ".carpusraw")
 """What :func:`measure` puts beside a session, as the tests write it."""
 
 
 def test_patient_saved_is_read_back(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         patient_id = house.patients.add(LINDEN)
         session_id = measure(house, patient_id, T0)
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         (found,) = house.patients.search()
-        assert (found.patient_id, written(found)) == (patient_id, LINDEN)
+        assert (found.patient_id, strip_stored_fields(found)) == (patient_id, LINDEN)
         assert (found.session_count, found.last_session, found.last_exercise) == (1, T0, "WRIST_FE")
         (session,) = house.index.patient_sessions(patient_id)
         assert (session.session_id, session.created, session.hand, session.frames) == (session_id, T0, "right", 4)
@@ -74,7 +74,7 @@ def test_patient_saved_is_read_back(tmp_path: Path) -> None:
 
 
 def test_patient_search_orders_by_last_session(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         never = house.patients.add(Patient("Fir 12", "left"), T0 + timedelta(days=9))
         linden, heron = house.patients.add(LINDEN, T0), house.patients.add(HERON, T0)
         measure(house, linden, T0 + timedelta(days=2))
@@ -91,7 +91,7 @@ def test_patient_search_orders_by_last_session(tmp_path: Path) -> None:
 
 
 def test_pseudonym_of_another_patient_is_refused(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         for taken in ("LINDEN 42", " linden 42", "Ｌinden 42"):
             with pytest.raises(PseudonymTaken):
@@ -100,7 +100,7 @@ def test_pseudonym_of_another_patient_is_refused(tmp_path: Path) -> None:
             house.patients.change(Patient("linden 42", "left", patient_id=heron))
         house.patients.change(Patient("linden 42", "both", note="changed", patient_id=linden))
         assert house.patients.get(linden).note == "changed"
-        assert written(house.patients.get(heron)) == HERON
+        assert strip_stored_fields(house.patients.get(heron)) == HERON
         assert house.patients.id_of_pseudonym("LINDEN 42") == linden
         with pytest.raises(ConcurrentChange):
             house.patients.change(Patient("Oak 11", "left", patient_id="nobody"))
@@ -111,12 +111,12 @@ def test_pseudonym_of_another_patient_is_refused(tmp_path: Path) -> None:
 
 
 def test_scan_rebuilds_lost_list(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         before = {measure(house, linden, T0 + timedelta(days=day)) for day in range(3)} | {measure(house, heron, T0)}
     for path in tmp_path.glob(f"{STORE_FILE}*"):
         path.unlink()
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         house.files.scan()
         assert house.names() == ["Linden 42", "Heron 17"]
         people = house.patients.search()
@@ -126,7 +126,7 @@ def test_scan_rebuilds_lost_list(tmp_path: Path) -> None:
 
 
 def test_scan_finds_new_files_and_keeps_missing_ones(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         linden, folder = house.patients.add(LINDEN), house.store.sessions_folder
         away = house.index.get(measure(house, linden, T0))
         session_records.add_comment(house.store, away.session_id, "still written", "AB")
@@ -141,7 +141,7 @@ def test_scan_finds_new_files_and_keeps_missing_ones(tmp_path: Path) -> None:
         found = house.files.scan()
         assert (found.session_count, sorted(house.names())) == (5, ["Linden 42", "Wren 33"])
         assert [fault.subject for fault in found.faults] == [str(folder / "junk.h5")]
-        assert written(house.patients.get(linden)) == LINDEN
+        assert strip_stored_fields(house.patients.get(linden)) == LINDEN
         assert [entry.path.name for entry in house.index.patient_sessions(linden)] == ["a.h5", "moved.h5"]
         assert house.patients.get(house.patients.id_of_pseudonym("Wren 33")).session_count == 2
         assert house.patients.get(house.patients.id_of_pseudonym("Wren 33")).side == "both"
@@ -154,7 +154,7 @@ def test_scan_finds_new_files_and_keeps_missing_ones(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("how", ["exchanged", "moved over", "copied over", "another's"])
 def test_scan_lists_exchanged_files_by_content(tmp_path: Path, how: str) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         ids = [measure(house, house.patients.add(entry), T0) for entry in (LINDEN, HERON)]
         session_records.add_comment(house.store, ids[0], "mine", "AB")
         mine, other = (house.index.get(one).path for one in ids)
@@ -185,7 +185,7 @@ def test_scan_lists_exchanged_files_by_content(tmp_path: Path, how: str) -> None
 def test_data_folder_is_private_and_movable(tmp_path: Path) -> None:
     old, new = tmp_path / "old", tmp_path / "new"
     old.mkdir(mode=0o755)
-    with opened(old) as house:
+    with open_store(old) as house:
         patient_id = house.patients.add(LINDEN)
         measure(house, patient_id, T0)
         house.index.new_path(patient_id, "Linden 42", "WRIST_FE", "right", T0)
@@ -196,7 +196,7 @@ def test_data_folder_is_private_and_movable(tmp_path: Path) -> None:
     holding = {p.name for p in old.rglob("*") if p.is_file() and b"Mustermann" in p.read_bytes()}
     assert holding == {STORE_FILE}
     old.rename(new)
-    with opened(new) as house:
+    with open_store(new) as house:
         (session,) = house.index.patient_sessions(patient_id)
         assert session.path.is_file()
         assert session.path.is_relative_to(new)
@@ -213,7 +213,7 @@ def test_store_used_by_threads_and_programs_at_once(tmp_path: Path) -> None:
         except BaseException as fault:
             faults.append(fault)
 
-    with opened(tmp_path) as one, opened(tmp_path) as other:
+    with open_store(tmp_path) as one, open_store(tmp_path) as other:
         threads = [
             threading.Thread(target=work, args=(house, start))
             for house, start in ((one, 100), (one, 200), (other, 300), (other, 400))
@@ -235,14 +235,14 @@ def test_suggest_pseudonym_is_free_without_end(tmp_path: Path) -> None:
     assert suggest_pseudonym({name.upper() for name in taken}) == f"{WORDS[0]} 100"
     assert suggest_pseudonym((), random.Random(1)) == suggest_pseudonym((), random.Random(1))
     assert len({suggest_pseudonym((), random.Random(seed)) for seed in range(50)}) > 40
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         first = house.patients.suggest_pseudonym(random.Random(3))
         house.patients.add(Patient(first, "left"))
         assert house.patients.suggest_pseudonym(random.Random(3)) != first
 
 
 def test_concurrent_change_second_is_refused(tmp_path: Path, url: str) -> None:
-    with opened(tmp_path, url) as one, opened(tmp_path, url) as other:
+    with open_store(tmp_path, url) as one, open_store(tmp_path, url) as other:
         linden = one.patients.add(LINDEN)
         session_id = measure(one, linden, T0)
         read = other.patients.get(linden)
@@ -266,7 +266,7 @@ def test_normalize_name_composes_and_refuses_invisible(tmp_path: Path) -> None:
     assert normalize_name("Fir  11") == "Fir 11"
     for name in ("Müller-Lüdenscheidt", "李 小龍", "Ольга 7", "O’Neill 12"):
         assert normalize_name(f"  {name} ") == name
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         for text in (*(f"Lin{sign}den" for sign in UNSEEN), "\u202eLinden", "Fir\ufe0f", "x" * 101):
             for entry in (Patient(text, "left"), Patient("Oak 11", "left", name=text)):
                 with pytest.raises(NameUnsuited):
@@ -276,21 +276,21 @@ def test_normalize_name_composes_and_refuses_invisible(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("how", ["deleted", "emptied"])
 def test_store_missing_beside_sessions_is_reported(tmp_path: Path, how: str) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         measure(house, PRACTICE_PATIENT, T0)
     for with_session in (False, True):
         for path in tmp_path.glob(f"{STORE_FILE}*"):
             path.unlink() if how == "deleted" else path.write_bytes(b"")
-        with opened(tmp_path) as house:
+        with open_store(tmp_path) as house:
             assert [type(one) for one in house.store.startup_faults] == [PatientListMissing] * with_session
             measure(house, house.patients.add(LINDEN), T0)
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         assert house.store.startup_faults == []
 
 
 def test_rescue_rows_keeps_readable_rows(tmp_path: Path) -> None:
     """One page of two hundred patients is lost; all others stay, with what was written of them."""
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         people = [
             insert_row(schema.PATIENT, f"{one:032x}", **patient_columns(Patient(f"Oak {one}", "left", note="x" * 300)))
             for one in range(200)
@@ -304,7 +304,7 @@ def test_rescue_rows_keeps_readable_rows(tmp_path: Path) -> None:
     page = content.index(b"oak 100Oak 100") // 4096 * 4096
     content[page : page + 4096] = bytes(4096)
     (tmp_path / STORE_FILE).write_bytes(content)
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         (fault,) = house.store.startup_faults
         assert isinstance(fault, PatientListRebuilt)
         house.files.scan()
@@ -335,18 +335,18 @@ def test_store_earlier_version_is_migrated(tmp_path: Path, version: int) -> None
     """The golden files were made by these versions."""
     golden = Path(__file__).with_name("golden") / f"version-{version}.sqlite3"
     (tmp_path / STORE_FILE).write_bytes(golden.read_bytes())
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         (linden,) = house.patients.search("muster")
         (session,) = house.index.patient_sessions(linden.patient_id)
         before = replace(LINDEN, note="flexor tendon (40-49)", birth_day=None, record_number="", sex="")
-        assert (written(linden), session.exercise) == (before, "WRIST_FE")
+        assert (strip_stored_fields(linden), session.exercise) == (before, "WRIST_FE")
         assert (linden.session_count, linden.last_session) == (1, session.recorded)
         assert house.patients.id_of_pseudonym("linden 42") == linden.patient_id
         assert [one.text for one in session_records.read_comments(house.store, session.session_id)] == [
             "Less swelling."
         ]
         house.patients.change(replace(LINDEN, patient_id=linden.patient_id, version=linden.version))
-        assert written(house.patients.get(linden.patient_id)) == LINDEN
+        assert strip_stored_fields(house.patients.get(linden.patient_id)) == LINDEN
 
 
 def test_store_earlier_version_damaged_is_rescued(tmp_path: Path) -> None:
@@ -354,13 +354,13 @@ def test_store_earlier_version_damaged_is_rescued(tmp_path: Path) -> None:
     page = content.index(b"Less swelling.") // 4096 * 4096
     content[page : page + 4096] = bytes(4096)
     (tmp_path / STORE_FILE).write_bytes(content)
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         assert [type(one) for one in house.store.startup_faults] == [PatientListRebuilt]
         assert house.names() == ["Linden 42"]
 
 
 def test_scan_assigns_file_by_patient_folder(tmp_path: Path, url: str) -> None:
-    with opened(tmp_path, url) as house:
+    with open_store(tmp_path, url) as house:
         given = new_id()
         record(house.store.sessions_folder / given / "s.h5", HERON.pseudonym, T0)
         house.files.scan()
@@ -374,7 +374,7 @@ def test_scan_assigns_file_by_patient_folder(tmp_path: Path, url: str) -> None:
 
 
 def test_home_plan_is_saved_with_patient(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         first = HomePlan(("WRIST_FE", "FIST_HOOK"), 10, 3, T0.date(), None, "", "", "it")
         for plan in (first, replace(first, times=5, again=date(2026, 10, 16), at="11:30", note="Bring the splint")):
@@ -401,7 +401,7 @@ def test_store_damaged_opened_twice_loses_nothing(tmp_path: Path) -> None:
 
 def test_valid_rows_skips_and_reports_damaged_row_once(tmp_path: Path) -> None:
     told: list[CarpusFault] = []
-    with opened(tmp_path, tell=told.append) as house:
+    with open_store(tmp_path, tell=told.append) as house:
         linden = house.patients.add(LINDEN)
         session_id = measure(house, linden, T0)
         session_records.save_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
@@ -426,7 +426,7 @@ def test_valid_rows_skips_and_reports_damaged_row_once(tmp_path: Path) -> None:
 
 def test_therapists_of_two_computers_are_kept(tmp_path: Path) -> None:
     anna, katrin, maria = Therapist("AB", "Anna"), Therapist("KB"), Therapist("MR", "Maria")
-    with opened(tmp_path) as one, opened(tmp_path) as other:
+    with open_store(tmp_path) as one, open_store(tmp_path) as other:
         clinic_records.save_therapists(one.store, [anna, katrin])
         clinic_records.save_therapists(other.store, [maria])
         clinic_records.save_therapists(one.store, [replace(anna, name="Anna B")], [anna, katrin])

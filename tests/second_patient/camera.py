@@ -40,7 +40,7 @@ class Hung:
         return np.stack((camera.fx_px * u + camera.cx_px, camera.fy_px * v + camera.cy_px), axis=-1)
 
 
-def hung_camera(seed: int, mirror: FloatArray) -> Hung:
+def hang_camera(seed: int, mirror: FloatArray) -> Hung:
     """The camera of a seed over a hand whose room is ``mirror``-ed."""
     rng = np.random.default_rng([seed, 1511])
     focal = float(rng.uniform(522.0, 552.0))

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from carpus.core.model.types import FloatArray
 from tests.second_patient.flesh import Skin
 from tests.second_patient.person import Person
-from tests.second_patient.skeleton import Bone, Posture, placed_bones, rest_posture
-from tests.second_patient.skinning import dual_quaternions, moved
+from tests.second_patient.skeleton import Bone, Posture, place_bones, rest_posture
+from tests.second_patient.skinning import dual_quaternions, move_points
 
 NAMES = ("WRIST", "CMC1", "MCP1", "IP1", "TIP1") + tuple(
     f"{joint}{k}" for k in (2, 3, 4, 5) for joint in ("MCP", "PIP", "DIP", "TIP")
@@ -56,9 +56,9 @@ class StuckDiscs:
     cut: FloatArray
 
 
-def stuck_discs(person: Person, skin: Skin, rng: np.random.Generator) -> StuckDiscs:
+def stick_discs(person: Person, skin: Skin, rng: np.random.Generator) -> StuckDiscs:
     """A therapist sticks them, a millimetre or two off, up to five."""
-    rest = placed_bones(person, rest_posture(), np.eye(3))
+    rest = place_bones(person, rest_posture(), np.eye(3))
     paths = []
     for name in NAMES:
         place, out, along = _aim(person, rest.turn[0], rest.joint_m[0], name)
@@ -78,7 +78,7 @@ def stuck_discs(person: Person, skin: Skin, rng: np.random.Generator) -> StuckDi
             room[i] = min(room[i], 5.2e-3, 0.5 * float(beside) - _BETWEEN_ENDS_M)
     radius = np.clip(np.minimum(radius, room), _LEAST_M, 7e-3)
     cut = np.stack((*rng.uniform(0.0, 0.035, (2, len(NAMES))), *rng.uniform(0.0, 6.3, (2, len(NAMES)))), axis=1)
-    return StuckDiscs(tuple(paths), _solved_slip(person, skin, paths), radius, cut)
+    return StuckDiscs(tuple(paths), _solve_slip(person, skin, paths), radius, cut)
 
 
 def _middle(skin: Skin, path: Path) -> FloatArray:
@@ -175,7 +175,7 @@ def skin_points(
 ) -> FloatArray:
     """Corners of the skin (K,) as one moment's bones (20, 8) carry them, knuckles (4,) and tendons (4,) out; (K, 3)."""
     out = skin.knuckle[corner] @ rise_m + skin.tendon[corner] @ tendon_m
-    return moved(skin.weight[corner], dual, skin.corner_m[corner] + out[:, None] * skin.normal[corner])
+    return move_points(skin.weight[corner], dual, skin.corner_m[corner] + out[:, None] * skin.normal[corner])
 
 
 def disc_points(
@@ -187,8 +187,8 @@ def disc_points(
     rows: Sequence[int] = tuple(range(len(NAMES))),
 ) -> FloatArray:
     """Centres of the discs of these ``rows`` in the room of a right hand, (N, M, 3)."""
-    rest = placed_bones(person, rest_posture(), np.eye(3))
-    dual = dual_quaternions(rest, placed_bones(person, posture, chain_axes))
+    rest = place_bones(person, rest_posture(), np.eye(3))
+    dual = dual_quaternions(rest, place_bones(person, posture, chain_axes))
     rise, tendon = lifts_m(person, posture)
     slip = bends(posture) * stuck.slip_m
     out = np.empty((len(posture), len(rows), 3))
@@ -227,11 +227,11 @@ def full_bend(name: str) -> tuple[Posture, Bone]:
     return Posture(wrist, np.zeros((2, 3)), fingers, np.zeros(2), np.zeros(2)), bone
 
 
-def glide_of(person: Person, skin: Skin, path: Path, name: str) -> Callable[[float], float]:
+def measure_glide(person: Person, skin: Skin, path: Path, name: str) -> Callable[[float], float]:
     """How far a disc moves over the bone beneath it, along its way, between the two postures of :func:`full_bend`, as
     a function of its slip along the path."""
     posture, bone = full_bend(name)
-    rest, placed = (placed_bones(person, some, np.eye(3)) for some in (rest_posture(), posture))
+    rest, placed = (place_bones(person, some, np.eye(3)) for some in (rest_posture(), posture))
     dual = dual_quaternions(rest, placed)
     rise, tendon = lifts_m(person, posture)
     bend = bends(posture)[:, NAMES.index(name)]
@@ -248,13 +248,13 @@ def glide_of(person: Person, skin: Skin, path: Path, name: str) -> Callable[[flo
     return glide
 
 
-def _solved_slip(person: Person, skin: Skin, paths: Sequence[Path]) -> FloatArray:
+def _solve_slip(person: Person, skin: Skin, paths: Sequence[Path]) -> FloatArray:
     """Slip along the path with which the whole glide of palm and MCP1 is what was drawn; of the others what was drawn
     is the slip itself, for the bending joint's own skin comes on top."""
     slip = np.array([person.glide_m.get(name, 0.0) for name in NAMES])
     for name in (*PALM, "MCP1"):
         row = NAMES.index(name)
-        glide, want, found = glide_of(person, skin, paths[row], name), slip[row], 0.0
+        glide, want, found = measure_glide(person, skin, paths[row], name), slip[row], 0.0
         for _ in range(_ROUNDS):
             gain = max((glide(found + _STEP_M) - glide(found)) / _STEP_M, 0.25)
             found = float(np.clip(found + (want - glide(found)) / gain, -_MOST_SLIP_M, _MOST_SLIP_M))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from carpus.core.model.types import FloatArray
 from tests.second_patient.person import Person
-from tests.second_patient.skeleton import BONES, Bone, Placed, bone_length_m, placed_bones, rest_posture
+from tests.second_patient.skeleton import BONES, Bone, Placed, bone_length_m, place_bones, rest_posture
 
 _HARDNESS = 4.5
 _STEP_M = 0.0042
@@ -51,9 +51,9 @@ class Skin:
     tendon: FloatArray
 
 
-def skin_of(person: Person) -> Skin:
+def make_skin(person: Person) -> Skin:
     """The person's skin."""
-    rest = placed_bones(person, rest_posture(), np.eye(3))
+    rest = place_bones(person, rest_posture(), np.eye(3))
     strands = _strands(person, rest)
     corner, triangle = _net(strands)
     for _ in range(4):

@@ -13,7 +13,7 @@ from tests.second_patient.camera import Hung
 from tests.second_patient.discs import NAMES
 from tests.second_patient.patient import Body, Patient
 from tests.second_patient.raster import fragments
-from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
+from tests.second_patient.skeleton import Bone, place_bones, rest_posture
 
 FloatImage = NDArray[np.float32]
 SAMPLES = 2
@@ -47,7 +47,7 @@ class CleanColor:
     visible_share: FloatArray
 
 
-def look_of(patient: Patient, hung: Hung, seed: int) -> Look:
+def make_look(patient: Patient, hung: Hung, seed: int) -> Look:
     """Looks of a seed."""
     rng = np.random.default_rng([seed, 1607])
     swing, high = rng.uniform(0.0, 2.0 * np.pi), np.radians(rng.uniform(48.0, 75.0))
@@ -70,7 +70,7 @@ def _paint(patient: Patient, rng: np.random.Generator) -> FloatArray:
     waves = rng.normal(size=(12, 3)) * 140.0
     mottle = np.sin(corner @ waves.T + rng.uniform(0.0, 6.3, 12)).mean(axis=1)
     out = base * (1.0 + 0.12 * mottle[:, None] * np.array([0.7, 1.0, 1.1]))
-    rest = placed_bones(person, rest_posture(), np.eye(3))
+    rest = place_bones(person, rest_posture(), np.eye(3))
     mm = 1e-3 * person.size
     for ray in (1, 2, 3, 4):
         first = Bone.PP2 + 3 * (ray - 1)
@@ -153,7 +153,7 @@ def front_faces(patient: Patient) -> NDArray[np.int64]:
     return patient.skin.triangle[:, ::-1] if patient.side == "left" else patient.skin.triangle
 
 
-def depth_of(patient: Patient, hung: Hung, look: Look, body: Body) -> FloatImage:
+def render_depth(patient: Patient, hung: Hung, look: Look, body: Body) -> FloatImage:
     """Depth (H, W) of everything, along the camera's z."""
     cam = hung.to_camera(body.point_m)
     depth = look.table_depth_m.copy()
@@ -162,7 +162,7 @@ def depth_of(patient: Patient, hung: Hung, look: Look, body: Body) -> FloatImage
     return depth
 
 
-def color_of(patient: Patient, hung: Hung, look: Look, body: Body, stuck: NDArray[np.bool_]) -> CleanColor:
+def render_color(patient: Patient, hung: Hung, look: Look, body: Body, stuck: NDArray[np.bool_]) -> CleanColor:
     """The picture in linear light; ``stuck`` (21,) which discs are on the hand."""
     shape = look.table_depth_m.shape
     cam = hung.to_camera(body.point_m)

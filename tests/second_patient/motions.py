@@ -67,7 +67,7 @@ def ease(x: FloatArray) -> FloatArray:
     return np.asarray(x**4 * (35.0 - 84.0 * x + 70.0 * x**2 - 20.0 * x**3))
 
 
-def through(times_s: list[float], values: list[float]) -> Curve:
+def interpolate_rests(times_s: list[float], values: list[float]) -> Curve:
     """A curve that rests at each value at its time."""
 
     def curve(t: FloatArray) -> FloatArray:
@@ -83,7 +83,7 @@ def _nothing(t: FloatArray) -> FloatArray:
     return np.zeros(np.shape(t))
 
 
-def motion_of(name: str, seed: int) -> Motion:
+def make_motion(name: str, seed: int) -> Motion:
     """The motion ``name`` as the person of a seed does it."""
     rng = np.random.default_rng([seed, 1409])
     vary = lambda low, high: float(rng.uniform(low, high))  # noqa: E731
@@ -101,45 +101,45 @@ def motion_of(name: str, seed: int) -> Motion:
     pip: Curve = _nothing
     spread: Curve = _nothing
     cup: Curve = _nothing
-    roll: Curve = through(at(0.2, 2.6, 4.6), [0.0, vary(-2.5, 2.5), vary(-1.5, 1.5)])
+    roll: Curve = interpolate_rests(at(0.2, 2.6, 4.6), [0.0, vary(-2.5, 2.5), vary(-1.5, 1.5)])
     thumb = [_nothing] * 5
     if name == "tenodesis":
         down, back, gain = vary(18, 28), vary(36, 46), vary(0.8, 1.0)
-        wrist[1] = through(at(0.0, 0.9, 2.1, 3.2, 4.4), [0.0, down, -back, down * 0.8, -back * 0.9])
-        wrist[0] = through(at(0.0, 1.6, 3.0, 4.4), [0.0, vary(-3, 3), vary(-3, 3), 0.0])
+        wrist[1] = interpolate_rests(at(0.0, 0.9, 2.1, 3.2, 4.4), [0.0, down, -back, down * 0.8, -back * 0.9])
+        wrist[0] = interpolate_rests(at(0.0, 1.6, 3.0, 4.4), [0.0, vary(-3, 3), vary(-3, 3), 0.0])
         # Fingers follow the wrist: the long tendons are as long as they are.
         bend = wrist[1]
         mcp = lambda t: gain * np.maximum(-bend(t), -6.0)  # noqa: E731
         pip = lambda t: gain * np.maximum(-bend(t), -6.0)  # noqa: E731
         cup = lambda t: 0.35 * np.clip(-bend(t) / 45.0, 0.0, 1.0)  # noqa: E731
     elif name == "held_grip":
-        mcp, pip = through(at(0.0, 0.9, 4.0, 4.7), [0.0, vary(48, 55), vary(48, 55), 4.0]), through(
+        mcp, pip = interpolate_rests(at(0.0, 0.9, 4.0, 4.7), [0.0, vary(48, 55), vary(48, 55), 4.0]), interpolate_rests(
             at(0.0, 0.9, 4.0, 4.7), [0.0, vary(40, 55), vary(40, 55), 3.0])  # fmt: skip
-        cup = through(at(0.0, 0.9, 4.0, 4.7), [0.0, 0.55, 0.6, 0.05])
+        cup = interpolate_rests(at(0.0, 0.9, 4.0, 4.7), [0.0, 0.55, 0.6, 0.05])
         out, inn = vary(14, 19), vary(20, 27)
-        wrist[0] = through(at(1.0, 1.7, 2.5, 3.2, 4.0), [0.0, out, -inn, out, 0.0])
+        wrist[0] = interpolate_rests(at(1.0, 1.7, 2.5, 3.2, 4.0), [0.0, out, -inn, out, 0.0])
     elif name == "power_grip":
-        mcp, pip = through(at(0.0, 1.0, 3.9, 4.7), [0.0, vary(66, 78), vary(70, 80), 5.0]), through(
+        mcp, pip = interpolate_rests(at(0.0, 1.0, 3.9, 4.7), [0.0, vary(66, 78), vary(70, 80), 5.0]), interpolate_rests(
             at(0.0, 1.0, 3.9, 4.7), [0.0, vary(70, 88), vary(75, 90), 5.0])  # fmt: skip
-        cup = through(at(0.1, 1.1, 3.8, 4.7), [0.0, 1.0, 1.0, 0.05])
-        wrist[1] = through(at(0.2, 1.2, 2.0, 2.9, 3.8, 4.6), [0.0, -18.0, 8.0, -24.0, -10.0, 0.0])
-        wrist[0] = through(at(0.8, 1.8, 2.9, 4.0), [0.0, 7.0, -10.0, 0.0])
-        thumb = [through(at(0.1, 1.2, 3.8, 4.7), [0.0, v, v, 0.0]) for v in (-8.0, 22.0, 18.0, 2.0, 25.0)]
+        cup = interpolate_rests(at(0.1, 1.1, 3.8, 4.7), [0.0, 1.0, 1.0, 0.05])
+        wrist[1] = interpolate_rests(at(0.2, 1.2, 2.0, 2.9, 3.8, 4.6), [0.0, -18.0, 8.0, -24.0, -10.0, 0.0])
+        wrist[0] = interpolate_rests(at(0.8, 1.8, 2.9, 4.0), [0.0, 7.0, -10.0, 0.0])
+        thumb = [interpolate_rests(at(0.1, 1.2, 3.8, 4.7), [0.0, v, v, 0.0]) for v in (-8.0, 22.0, 18.0, 2.0, 25.0)]
     elif name == "pronosupination":
         a, b = vary(28, 36), vary(24, 34)
-        wrist[2] = through(at(0.0, 1.0, 2.3, 3.5, 4.5), [0.0, a, -b, a * 0.8, 0.0])
-        wrist[1] = through(at(0.0, 1.0, 2.3, 4.5), [0.0, vary(-4, 4), vary(-4, 4), 0.0])
+        wrist[2] = interpolate_rests(at(0.0, 1.0, 2.3, 3.5, 4.5), [0.0, a, -b, a * 0.8, 0.0])
+        wrist[1] = interpolate_rests(at(0.0, 1.0, 2.3, 4.5), [0.0, vary(-4, 4), vary(-4, 4), 0.0])
         roll = _nothing
     elif name == "rest_fingers":
         a = vary(38, 52)
-        mcp = pip = through(at(0.0, 0.9, 1.8, 2.8, 3.8), [0.0, a, 0.0, a, 0.0])
-        cup = through(at(0.0, 0.9, 1.8, 2.8, 3.8), [0.0, 0.35, 0.0, 0.35, 0.0])
+        mcp = pip = interpolate_rests(at(0.0, 0.9, 1.8, 2.8, 3.8), [0.0, a, 0.0, a, 0.0])
+        cup = interpolate_rests(at(0.0, 0.9, 1.8, 2.8, 3.8), [0.0, 0.35, 0.0, 0.35, 0.0])
     elif name == "fingers45":
         a = vary(43, 47)
-        mcp = through(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, a, a, 0.0, a, 0.0])
-        pip = through(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, a * 0.45, a * 0.45, 0.0, a * 0.45, 0.0])
-        cup = through(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, 0.3, 0.3, 0.0, 0.3, 0.0])
-        wrist[1] = through(at(0.3, 1.6, 3.6), [0.0, vary(-3, 3), 0.0])
+        mcp = interpolate_rests(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, a, a, 0.0, a, 0.0])
+        pip = interpolate_rests(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, a * 0.45, a * 0.45, 0.0, a * 0.45, 0.0])
+        cup = interpolate_rests(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, 0.3, 0.3, 0.0, 0.3, 0.0])
+        wrist[1] = interpolate_rests(at(0.3, 1.6, 3.6), [0.0, vary(-3, 3), 0.0])
     elif name == "grasp":
         wide = _grasp(rng, start, pace)
         mcp, pip = (lambda t: 14.0 + 38.0 * (1.0 - wide(t)) - 52.0 * _flat(t, start)), (
@@ -153,15 +153,15 @@ def motion_of(name: str, seed: int) -> Motion:
             _nothing,
             lambda t: 20.0 * (1.0 - wide(t)) * (1.0 - _flat(t, start)),
         ]
-        wrist[1] = through(at(0.0, 1.0, 2.2, 3.2, 4.5), [0.0, -14.0, -24.0, -18.0, -4.0])
-        wrist[0] = through(at(0.4, 1.6, 2.6, 4.2), [0.0, -8.0, 6.0, 0.0])
-        wrist[2] = through(at(0.0, 1.2, 3.2, 4.5), [0.0, 16.0, 20.0, 3.0])
-        place[0] = through(at(0.0, 1.4, 3.0, 4.5), [0.0, 0.045, 0.045, 0.005])
-        place[2] = through(at(0.0, 1.4, 3.0, 4.5), [0.0, 0.02, 0.03, 0.0])
+        wrist[1] = interpolate_rests(at(0.0, 1.0, 2.2, 3.2, 4.5), [0.0, -14.0, -24.0, -18.0, -4.0])
+        wrist[0] = interpolate_rests(at(0.4, 1.6, 2.6, 4.2), [0.0, -8.0, 6.0, 0.0])
+        wrist[2] = interpolate_rests(at(0.0, 1.2, 3.2, 4.5), [0.0, 16.0, 20.0, 3.0])
+        place[0] = interpolate_rests(at(0.0, 1.4, 3.0, 4.5), [0.0, 0.045, 0.045, 0.005])
+        place[2] = interpolate_rests(at(0.0, 1.4, 3.0, 4.5), [0.0, 0.02, 0.03, 0.0])
     elif name == "mixed":
-        wrist[1] = through(at(0.0, 0.9, 2.0, 3.1, 4.3), [0.0, 30.0, -26.0, 22.0, 0.0])
-        wrist[0] = through(at(0.3, 1.3, 2.4, 3.6, 4.5), [0.0, 12.0, -16.0, 10.0, 0.0])
-        wrist[2] = through(at(0.2, 1.5, 2.9, 4.4), [0.0, -14.0, 18.0, 0.0])
+        wrist[1] = interpolate_rests(at(0.0, 0.9, 2.0, 3.1, 4.3), [0.0, 30.0, -26.0, 22.0, 0.0])
+        wrist[0] = interpolate_rests(at(0.3, 1.3, 2.4, 3.6, 4.5), [0.0, 12.0, -16.0, 10.0, 0.0])
+        wrist[2] = interpolate_rests(at(0.2, 1.5, 2.9, 4.4), [0.0, -14.0, 18.0, 0.0])
         roll = _nothing
     else:
         raise ValueError(f"no motion {name!r}")
@@ -200,7 +200,9 @@ def _flat(t: FloatArray, start: float) -> FloatArray:
 def _grasp(rng: np.random.Generator, start: float, pace: float) -> Curve:
     """How wide the hand is open, 0 to 1: index to thumb of a real person's grasp where there is one, else our own."""
     if not GRASPS.exists():
-        return through([start + pace * s for s in (0.0, 1.0, 1.7, 2.9, 3.6, 4.4)], [0.4, 1.0, 0.1, 0.1, 0.9, 0.4])
+        return interpolate_rests(
+            [start + pace * s for s in (0.0, 1.0, 1.7, 2.9, 3.6, 4.4)], [0.4, 1.0, 0.1, 0.1, 0.9, 0.4]
+        )
     with np.load(GRASPS) as data:
         trial = int(rng.integers(len(data["start"]) - 1))
         rows = slice(int(data["start"][trial]), int(data["start"][trial + 1]))

@@ -20,12 +20,12 @@ from tests.second_patient.discs import (
     lifts_m,
     on_paths,
     skin_points,
-    stuck_discs,
+    stick_discs,
 )
-from tests.second_patient.flesh import Skin, skin_of
-from tests.second_patient.person import Person, drawn_person
-from tests.second_patient.skeleton import Bone, Placed, Posture, placed_bones, rest_posture
-from tests.second_patient.skinning import blended_turn, dual_quaternions, turned
+from tests.second_patient.flesh import Skin, make_skin
+from tests.second_patient.person import Person, draw_person
+from tests.second_patient.skeleton import Bone, Placed, Posture, place_bones, rest_posture
+from tests.second_patient.skinning import blended_turn, dual_quaternions, turn_vectors
 
 MIRROR = np.array([1.0, -1.0, 1.0])
 _HELD_M = 0.016
@@ -63,7 +63,7 @@ class Patient:
 
     def placed(self, posture: Posture) -> Placed:
         """All bones, of the right hand."""
-        return placed_bones(self.person, posture, self.chain_axes)
+        return place_bones(self.person, posture, self.chain_axes)
 
     def discs_m(self, posture: Posture, rows: Sequence[int] = tuple(range(len(NAMES)))) -> FloatArray:
         """Centres of the discs of these ``rows`` in the room, (N, M, 3)."""
@@ -71,30 +71,30 @@ class Patient:
 
     def body(self, posture: Posture) -> Body:
         """Skin and discs of a single moment."""
-        rest = placed_bones(self.person, rest_posture(), np.eye(3))
+        rest = place_bones(self.person, rest_posture(), np.eye(3))
         dual = dual_quaternions(rest, self.placed(posture))[0]
         rise, tendon = (part[0] for part in lifts_m(self.person, posture))
         point = skin_points(self.skin, np.arange(len(self.skin.corner_m)), dual, rise, tendon)
-        normal = turned(blended_turn(self.skin.weight, dual), self.skin.normal)
+        normal = turn_vectors(blended_turn(self.skin.weight, dual), self.skin.normal)
         corner, share = on_paths(self.stuck.path, bends(posture)[0] * self.stuck.slip_m)
         disc = np.einsum("mk,mkj->mj", share, point[corner])
         disc_normal = np.einsum("mk,mkj->mj", share, normal[corner])
         disc_normal /= np.linalg.norm(disc_normal, axis=1, keepdims=True)
         weight = np.einsum("mk,mkb->mb", share, self.skin.weight[corner])
-        along = turned(blended_turn(weight, dual), np.array([path.along for path in self.stuck.path]))
+        along = turn_vectors(blended_turn(weight, dual), np.array([path.along for path in self.stuck.path]))
         along -= np.sum(along * disc_normal, axis=1, keepdims=True) * disc_normal
         along /= np.linalg.norm(along, axis=1, keepdims=True)
         sits = np.einsum("mk,mkj->mj", share, self.skin.corner_m[corner])
         return Body(*(self.mirror * part for part in (point, normal, disc, disc_normal, along)), sits)
 
 
-def made_patient(seed: int, side: Side, neutral: Posture, *, rigid: bool = False) -> Patient:
+def make_patient(seed: int, side: Side, neutral: Posture, *, rigid: bool = False) -> Patient:
     """The patient of a seed; ``neutral`` is the posture that is clicked; ``rigid``: skin and palm stand still."""
     person, skin, stuck = _grown(seed, rigid)
     axes = np.eye(3)
     for _ in range(3):
         disc = disc_points(person, skin, stuck, neutral, axes)[0]
-        hand = placed_bones(person, neutral, axes).turn[0, Bone.FIXED]
+        hand = place_bones(person, neutral, axes).turn[0, Bone.FIXED]
         axes = hand.T @ frame_of_discs(disc, hand[:, 2])
     return Patient(side, person, skin, stuck, axes)
 
@@ -103,9 +103,9 @@ def made_patient(seed: int, side: Side, neutral: Posture, *, rigid: bool = False
 def _grown(seed: int, rigid: bool) -> tuple[Person, Skin, StuckDiscs]:
     """What is the same in every take of a patient: to net the skin takes longer than all the rest."""
     rng = np.random.default_rng([seed, 1301])
-    person = drawn_person(rng, rigid=rigid)
-    skin = skin_of(person)
-    stuck = stuck_discs(person, skin, rng)
+    person = draw_person(rng, rigid=rigid)
+    skin = make_skin(person)
+    stuck = stick_discs(person, skin, rng)
     if rigid:
         skin = _held(skin, stuck)
         stuck = StuckDiscs(stuck.path, np.zeros(len(NAMES)), stuck.size_m, stuck.cut)

@@ -62,7 +62,7 @@ class Person:
     rise_m: float
 
 
-def drawn_person(rng: np.random.Generator, *, rigid: bool = False) -> Person:
+def draw_person(rng: np.random.Generator, *, rigid: bool = False) -> Person:
     """An adult; ``rigid``: one whose skin and palm do not move."""
 
     def around(mean: FloatArray | float, sd: float, shape: tuple[int, ...] = ()) -> FloatArray:

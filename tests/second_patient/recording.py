@@ -17,13 +17,13 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
 from carpus.core.model.types import FloatArray, Side
-from tests.second_patient.camera import Hung, hung_camera
+from tests.second_patient.camera import Hung, hang_camera
 from tests.second_patient.discs import NAMES
-from tests.second_patient.look import color_of, depth_of, look_of
-from tests.second_patient.motions import SECONDS, Motion, Row, motion_of
-from tests.second_patient.patient import Patient, made_patient
-from tests.second_patient.sensor import exposed, read_depth, sensor_of
-from tests.second_patient.truth import Truth, truth_of
+from tests.second_patient.look import make_look, render_color, render_depth
+from tests.second_patient.motions import SECONDS, Motion, Row, make_motion
+from tests.second_patient.patient import Patient, make_patient
+from tests.second_patient.sensor import expose, make_sensor, read_depth
+from tests.second_patient.truth import Truth, compute_truth
 
 CLICKS_FILE, VISIBLE_FILE = "calibration.json", "visible_share.npy"
 # Read when this is imported: a file edited while its recording is drawn must not name what it did not draw.
@@ -49,22 +49,22 @@ class Take:
     truth: Truth
 
 
-def side_of(seed: int) -> Side:
+def choose_side(seed: int) -> Side:
     """Sides by parity, as in the table's other rows."""
     return "left" if seed % 2 else "right"
 
 
-def take_of(row: Row, seed: int, side: Side | None = None, seconds: float = SECONDS) -> Take:
+def make_take(row: Row, seed: int, side: Side | None = None, seconds: float = SECONDS) -> Take:
     """Everything about the recording of a row and a seed."""
     rng = np.random.default_rng([seed, 2003])
-    motion = motion_of(row.motion, seed)
-    patient = made_patient(seed, side or side_of(seed), motion.at(np.zeros(1)), rigid=row.rigid)
-    hung = hung_camera(seed, patient.mirror)
+    motion = make_motion(row.motion, seed)
+    patient = make_patient(seed, side or choose_side(seed), motion.at(np.zeros(1)), rigid=row.rigid)
+    hung = hang_camera(seed, patient.mirror)
     count = int(seconds * FPS)
     time_s = np.arange(count) / FPS + np.concatenate(([0.0], rng.uniform(-8e-4, 8e-4, count - 1)))
     depth_time_s = time_s + float(rng.uniform(0.001, 0.007))
     stamp_s = np.round(EPOCH_S + time_s, 6)
-    truth = truth_of(row, patient, motion, hung, time_s, stamp_s)
+    truth = compute_truth(row, patient, motion, hung, time_s, stamp_s)
     return Take(row, seed, patient, motion, hung, time_s, depth_time_s, truth)
 
 
@@ -89,13 +89,13 @@ def clicks_px(take: Take) -> FloatArray:
     return np.round(middle + off * radius_px(take)[:, None], 1)
 
 
-def recorded(take: Take, folder: Path) -> Truth:
+def record_take(take: Take, folder: Path) -> Truth:
     """Render a take into ``folder``, which must not hold one."""
     (folder / "rgb").mkdir(parents=True)
     (folder / "depth").mkdir()
     truth = take.truth
-    look = look_of(take.patient, take.hung, take.seed)
-    sensor = sensor_of(take.seed, (truth.camera.height_px, truth.camera.width_px))
+    look = make_look(take.patient, take.hung, take.seed)
+    sensor = make_sensor(take.seed, (truth.camera.height_px, truth.camera.width_px))
     stuck = np.isin(NAMES, truth.protocol.markers)
     rows = [NAMES.index(name) for name in truth.protocol.markers]
     share = np.empty_like(truth.visible_share)
@@ -103,10 +103,10 @@ def recorded(take: Take, folder: Path) -> Truth:
     posture, later = take.motion.at(take.time_s), take.motion.at(take.depth_time_s)
     for i in range(len(take.time_s)):
         now, then = (_moment(every, i) for every in (posture, later))
-        clean = color_of(take.patient, take.hung, look, take.patient.body(now), stuck)
-        depth = depth_of(take.patient, take.hung, look, take.patient.body(then))
+        clean = render_color(take.patient, take.hung, look, take.patient.body(now), stuck)
+        depth = render_depth(take.patient, take.hung, look, take.patient.body(then))
         share[i] = clean.visible_share[rows]
-        color = exposed(sensor, clean.light, i)
+        color = expose(sensor, clean.light, i)
         for kind, stamp_s, picture in (
             ("rgb", truth.timestamp_s[i], cv2.cvtColor(color, cv2.COLOR_RGB2BGR)),
             ("depth", EPOCH_S + take.depth_time_s[i], read_depth(sensor, depth, i)),
@@ -129,9 +129,9 @@ def _moment(posture: object, i: int) -> object:
     return type(posture)(*(getattr(posture, name)[i : i + 1] for name in posture.__slots__))  # type: ignore[attr-defined]
 
 
-def kept_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:
+def cache_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:
     """Folder and truth of a recording, rendered only when the user's cache does not hold it as it would be now."""
-    take = take_of(row, seed, seconds=seconds)
+    take = make_take(row, seed, seconds=seconds)
     # What is true names it too: a grasp is a real person's where that lies beside the checkout, another elsewhere.
     drawn = _SOURCE + repr((row, seed, seconds)).encode() + take.truth.disc_position_cam_m.tobytes()
     key = hashlib.sha256(drawn).hexdigest()[:20]
@@ -142,7 +142,7 @@ def kept_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path,
     root.mkdir(parents=True, exist_ok=True)
     part = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=root))
     try:
-        truth = recorded(take, part / "take")
+        truth = record_take(take, part / "take")
         (part / "take").rename(folder)
     finally:
         shutil.rmtree(part, ignore_errors=True)

@@ -44,7 +44,7 @@ class Sensor:
     seed: int
 
 
-def sensor_of(seed: int, shape: tuple[int, int]) -> Sensor:
+def make_sensor(seed: int, shape: tuple[int, int]) -> Sensor:
     """The unit of a seed for pictures of ``shape``."""
     rng = np.random.default_rng([seed, 1709])
     v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
@@ -87,7 +87,7 @@ def _gamma() -> ByteImage:
 _GAMMA = _gamma()
 
 
-def exposed(sensor: Sensor, light: FloatImage, frame: int) -> ByteImage:
+def expose(sensor: Sensor, light: FloatImage, frame: int) -> ByteImage:
     """(H, W, 3) linear light as 8-bit colour, red first."""
     rng = np.random.default_rng([sensor.seed, 1801, frame])
     seen = cv2.GaussianBlur(

@@ -89,7 +89,7 @@ def _parts(angle: FloatArray | float) -> tuple[FloatArray, FloatArray, FloatArra
     return c, s, np.zeros_like(c), np.ones_like(c)
 
 
-def placed_bones(person: Person, posture: Posture, chain_axes: FloatArray) -> Placed:
+def place_bones(person: Person, posture: Posture, chain_axes: FloatArray) -> Placed:
     """All bones; ``chain_axes`` (3, 3) are the axes of W in B, in which the fingers' chains count."""
     count = len(posture)
     turn, joint = np.empty((count, BONES, 3, 3)), np.empty((count, BONES, 3))

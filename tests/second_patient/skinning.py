@@ -24,16 +24,16 @@ def dual_quaternions(rest: Placed, placed: Placed) -> FloatArray:
     return np.concatenate((real, 0.5 * _product(pure, real)), axis=-1)
 
 
-def moved(weight: FloatArray, dual: FloatArray, point_m: FloatArray) -> FloatArray:
+def move_points(weight: FloatArray, dual: FloatArray, point_m: FloatArray) -> FloatArray:
     """Points (P, 3) with weights (P, 20) as the bones (20, 8) carry them."""
     blended = weight @ dual
     blended /= np.linalg.norm(blended[:, :4], axis=1, keepdims=True)
     real, other = blended[:, :4], blended[:, 4:]
     shift = 2.0 * (real[:, :1] * other[:, 1:] - other[:, :1] * real[:, 1:] + np.cross(real[:, 1:], other[:, 1:]))
-    return turned(real, point_m) + shift
+    return turn_vectors(real, point_m) + shift
 
 
-def turned(real: FloatArray, vector: FloatArray) -> FloatArray:
+def turn_vectors(real: FloatArray, vector: FloatArray) -> FloatArray:
     """Vectors (P, 3) turned by unit quaternions (P, 4)."""
     w, v = real[:, :1], real[:, 1:]
     return vector + 2.0 * np.cross(v, np.cross(v, vector) + w * vector)

@@ -44,7 +44,9 @@ class Truth:
     translation_w0_cam_m: FloatArray
 
 
-def truth_of(row: Row, patient: Patient, motion: Motion, hung: Hung, time_s: FloatArray, stamp_s: FloatArray) -> Truth:
+def compute_truth(
+    row: Row, patient: Patient, motion: Motion, hung: Hung, time_s: FloatArray, stamp_s: FloatArray
+) -> Truth:
     """True values at times (N,) after the first; nothing is rendered, so what is visible is still unknown."""
     protocol = get_protocol(row.protocol)
     rows = [NAMES.index(name) for name in protocol.markers]

@@ -84,7 +84,7 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
     measured[row % m] = np.nan
     return TrackedFrame(
         index=row,
-        timestamp_s=time_of(row),
+        timestamp_s=compute_time(row),
         status=TrackStatus.LOST if lost else TrackStatus((0, 1, 3)[row % 3]),
         kinematics=KinematicState(
             position_m=blank * rng.normal(size=3),
@@ -114,11 +114,11 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
     )
 
 
-def time_of(row: int) -> float:
+def compute_time(row: int) -> float:
     return 1305031102.175304 + row / 30.0
 
 
-def written_once(write: Callable[..., Path]) -> Callable[..., Path]:
+def write_once(write: Callable[..., Path]) -> Callable[..., Path]:
     """What writes a file, and for the same arguments gives a copy of it from then on."""
     contents: dict[Any, bytes] = {}
 
@@ -134,7 +134,7 @@ def written_once(write: Callable[..., Path]) -> Callable[..., Path]:
     return copied
 
 
-def begun(
+def begin_session(
     path: Path,
     header: SessionHeader | None = None,
     rows: int = 0,
@@ -165,13 +165,13 @@ def add_pictures(path: Path, pictures: Sequence[EncodedImages], unit_m: float = 
         file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
 
 
-def stored_journal(path: Path, rows: int) -> Path:
+def write_closed_journal(path: Path, rows: int) -> Path:
     """A journal that nobody adds to any more."""
-    journal_of(path, rows).close()
+    write_journal(path, rows).close()
     return path
 
 
-def journal_of(path: Path, rows: int = 0, protocol: MarkerProtocol = WRIST6, **options: Any) -> RecordingJournal:
+def write_journal(path: Path, rows: int = 0, protocol: MarkerProtocol = WRIST6, **options: Any) -> RecordingJournal:
     """A journal with so many rows that are stored; its clock stands still."""
     header = make_header(protocol, session_id=uuid.uuid4())
     journal = RecordingJournal(path, header, CAMERA, make_calibration(protocol), **{"clock": lambda: 0.0} | options)

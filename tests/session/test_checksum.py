@@ -17,34 +17,41 @@ from carpus.core.session.reader import verify
 from carpus.core.session.values import EncodedImages, VerificationResult, stack_states
 from carpus.core.session.writer import SessionWriter
 from tests.commands import Command
-from tests.session.samples import add_pictures, begun, make_frame, stored_journal, time_of, written_once
-from tests.session.test_golden import unpacked
+from tests.session.samples import (
+    add_pictures,
+    begin_session,
+    compute_time,
+    make_frame,
+    write_closed_journal,
+    write_once,
+)
+from tests.session.test_golden import unpack_golden
 
 ROWS = 30
 
 
-def filled(path: Path) -> SessionWriter:
-    writer = begun(path)
+def fill_file(path: Path) -> SessionWriter:
+    writer = begin_session(path)
     for row in range(ROWS):
         writer.append(make_frame(row))
         if row % 7 == 0:
-            writer.add_event(time_of(row), "note", f"Grüße {row}")
+            writer.add_event(compute_time(row), "note", f"Grüße {row}")
             writer.flush()
     writer.write_motion(stack_states([make_frame(row) for row in range(ROWS)]))
     return writer
 
 
-@written_once
-def stored(path: Path) -> Path:
-    filled(path).close()
+@write_once
+def store_session(path: Path) -> Path:
+    fill_file(path).close()
     add_pictures(path, [EncodedImages(bytes([row]) * 70, b"d" * 30) for row in range(ROWS)])
     return path
 
 
 def test_checksum_of_recovered_session_exists(tmp_path: Path) -> None:
     with pytest.raises(SessionUnfinished):
-        verify(unpacked("v2-wrist6.h5.0123abcd.part", tmp_path))
-    assert verify(write_session(stored_journal(tmp_path / "s.journal", ROWS))) == VerificationResult(
+        verify(unpack_golden("v2-wrist6.h5.0123abcd.part", tmp_path))
+    assert verify(write_session(write_closed_journal(tmp_path / "s.journal", ROWS))) == VerificationResult(
         ROWS, has_checksum=True
     )
 
@@ -63,7 +70,7 @@ CHANGES: dict[str, Callable[[h5py.File], object]] = {
 
 @pytest.mark.parametrize("change", CHANGES)
 def test_checksum_any_change_is_detected(tmp_path: Path, change: str) -> None:
-    path = stored(tmp_path / "s.h5")
+    path = store_session(tmp_path / "s.h5")
     assert verify(path) == VerificationResult(ROWS, has_checksum=True)
     with h5py.File(path, "r+") as file:
         CHANGES[change](file)
@@ -73,7 +80,7 @@ def test_checksum_any_change_is_detected(tmp_path: Path, change: str) -> None:
 
 def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
     """No single flipped bit in what the values occupy passes: found when they are read, or of a picture by the seal."""
-    path = stored(tmp_path / "s.h5")
+    path = store_session(tmp_path / "s.h5")
     data = path.read_bytes()
     rng = np.random.default_rng(3)
     used = []
@@ -97,7 +104,7 @@ def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
 
 
 def test_verify_command_reports_changes(tmp_path: Path, command: Command) -> None:
-    path = stored(tmp_path / "s.h5")
+    path = store_session(tmp_path / "s.h5")
     good = command("verify", path)
     assert (good.code, good.err, "Complete and unchanged" in good.out) == (0, "", True)
     with h5py.File(path, "r+") as file:

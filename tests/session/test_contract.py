@@ -15,7 +15,15 @@ import pytest
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.platform.version import __version__
 from carpus.core.session.values import stack_states
-from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
+from tests.session.samples import (
+    CAMERA,
+    begin_session,
+    compute_time,
+    make_calibration,
+    make_frame,
+    make_header,
+    write_once,
+)
 
 N = 40
 WRIST_MARKERS = ["WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5"]
@@ -92,12 +100,12 @@ def contract(m: int, j: int, d: int, e: int) -> dict[str, Row]:
     return table
 
 
-@written_once
+@write_once
 def write(path: Path, protocol: MarkerProtocol) -> Path:
     frames = [make_frame(row, protocol) for row in range(N)]
-    with begun(path, make_header(protocol), N) as writer:
-        writer.add_event(time_of(3), "note", "Schmerz am Daumen: 3°")
-        writer.add_event(time_of(9), "repetition")
+    with begin_session(path, make_header(protocol), N) as writer:
+        writer.add_event(compute_time(3), "note", "Schmerz am Daumen: 3°")
+        writer.add_event(compute_time(9), "repetition")
         writer.write_motion(stack_states(list(reversed(frames))))
     return path
 
@@ -195,6 +203,6 @@ def test_session_file_values_are_in_their_datasets(tmp_path: Path) -> None:
                 attribute = {"depth": "depth_m", "depth_sd": "depth_sd_m", "area": "area_px"}.get(name, name)
                 stored = file[f"/detections/{name}"][()][mine]
                 np.testing.assert_array_equal(stored, getattr(frame.detections, attribute))
-        assert file["/events/time"][()].tolist() == [time_of(3), time_of(9)]
+        assert file["/events/time"][()].tolist() == [compute_time(3), compute_time(9)]
         assert file["/events/kind"].asstr("utf-8")[()].tolist() == ["note", "repetition"]
         assert file["/events/text"].asstr("utf-8")[()].tolist() == ["Schmerz am Daumen: 3°", ""]

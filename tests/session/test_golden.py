@@ -16,13 +16,13 @@ from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session import schema
 from carpus.core.session.reader import read_detections, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages
-from tests.session.samples import CAMERA, time_of
+from tests.session.samples import CAMERA, compute_time
 
 GOLDEN = Path(__file__).parent / "golden"
 ROWS = 12
 
 
-def unpacked(name: str, folder: Path) -> Path:
+def unpack_golden(name: str, folder: Path) -> Path:
     path = folder / name
     path.write_bytes(lzma.decompress((GOLDEN / f"{name}.xz").read_bytes()))
     return path
@@ -31,11 +31,11 @@ def unpacked(name: str, folder: Path) -> Path:
 @pytest.mark.parametrize("version", range(1, schema.FORMAT_VERSION + 1))
 @pytest.mark.parametrize("protocol", [WRIST6, HAND21], ids=lambda protocol: protocol.name)
 def test_golden_old_session_is_read(tmp_path: Path, version: int, protocol: MarkerProtocol) -> None:
-    path = unpacked(f"v{version}-{protocol.name}.h5", tmp_path)
+    path = unpack_golden(f"v{version}-{protocol.name}.h5", tmp_path)
     before = path.read_bytes()
     session = read_session(path)
     assert (len(session), session.header.protocol) == (ROWS, protocol)
-    assert session.timestamp_s.tolist() == [time_of(row) for row in range(ROWS)]
+    assert session.timestamp_s.tolist() == [compute_time(row) for row in range(ROWS)]
     assert (session.header.subject_id, session.header.hand) == ("Linden 42", "left")
     assert session.header.recording_id
     assert session.header.created.startswith("2026-11-13T15:30")
@@ -78,7 +78,7 @@ def test_golden_old_session_is_read(tmp_path: Path, version: int, protocol: Mark
 
 def test_golden_surface_samples_are_read(tmp_path: Path) -> None:
     """A session of version 2 with ``/surface``, which the first of that version did not have."""
-    table = read_detections(unpacked("v2-surface.h5", tmp_path))
+    table = read_detections(unpack_golden("v2-surface.h5", tmp_path))
     for row in range(ROWS):
         count = row % 4 * 3
         blobs, steps = table.get_frame(row), np.arange(count)

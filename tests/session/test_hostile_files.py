@@ -18,15 +18,15 @@ from carpus.core.model.errors import SessionUnreadable
 from carpus.core.session import reader, reading_process
 from carpus.core.session.reader import ReadingProcess, read_outline, read_session
 from carpus.core.session.values import EncodedImages, Session
-from tests.session.samples import add_pictures, begun, make_frame, make_header, written_once
+from tests.session.samples import add_pictures, begin_session, make_frame, make_header, write_once
 
 ROWS = 40
 
 
-@written_once
-def stored(path: Path, *, raw: bool = False) -> Path:
+@write_once
+def store_session(path: Path, *, raw: bool = False) -> Path:
     """A sound session."""
-    with begun(path, make_header(session_id=uuid.uuid4()), ROWS) as writer:
+    with begin_session(path, make_header(session_id=uuid.uuid4()), ROWS) as writer:
         writer.add_event(make_frame(1).timestamp_s, "note", "x")
     if raw:
         add_pictures(path, [EncodedImages(b"c" * 50, b"d" * 30)] * ROWS)
@@ -36,7 +36,7 @@ def stored(path: Path, *, raw: bool = False) -> Path:
 ANGLES = "/wrist/angles"
 
 
-def replaced(path: Path, make: Callable[[h5py.File, Path], object]) -> Path:
+def replace_object(path: Path, make: Callable[[h5py.File, Path], object]) -> Path:
     """Something else in the place of the angles, with their attributes where it can have any."""
     with h5py.File(path, "r+") as file:
         attributes = dict(file[ANGLES].attrs)
@@ -58,7 +58,7 @@ def outside(file: h5py.File, folder: Path, name: str) -> None:
 
 def virtual(file: h5py.File, folder: Path) -> None:
     layout = h5py.VirtualLayout((ROWS, 3), "f8")
-    layout[:] = h5py.VirtualSource(str(stored(folder / "other.h5")), ANGLES, (ROWS, 3))
+    layout[:] = h5py.VirtualSource(str(store_session(folder / "other.h5")), ANGLES, (ROWS, 3))
     file.create_virtual_dataset(ANGLES, layout)
 
 
@@ -68,7 +68,9 @@ def of(make: Callable[[h5py.File, Path], object]) -> Callable[[h5py.File, Path],
 
 PAIRS = np.zeros((ROWS, 3), [("a", "f4"), ("b", "f4")])
 ELSE: dict[str, Callable[[h5py.File, Path], object]] = {
-    "a link into another file": of(lambda _, folder: h5py.ExternalLink(str(stored(folder / "other.h5")), ANGLES)),
+    "a link into another file": of(
+        lambda _, folder: h5py.ExternalLink(str(store_session(folder / "other.h5")), ANGLES)
+    ),
     "a soft link": of(lambda *_: h5py.SoftLink("/wrist/position")),
     "the bytes of another file": lambda file, folder: outside(file, folder, "secret"),
     "a pipe": lambda file, folder: outside(file, folder, "pipe"),
@@ -90,7 +92,7 @@ ELSE: dict[str, Callable[[h5py.File, Path], object]] = {
 
 @pytest.mark.parametrize("other", ELSE)
 def test_hostile_file_wrong_object_raises(tmp_path: Path, other: str) -> None:
-    path = replaced(stored(tmp_path / "s.h5"), ELSE[other])
+    path = replace_object(store_session(tmp_path / "s.h5"), ELSE[other])
     for read in (read_outline, read_session):
         with pytest.raises(SessionUnreadable, match="damaged: /wrist/"):
             read(path)
@@ -99,7 +101,7 @@ def test_hostile_file_wrong_object_raises(tmp_path: Path, other: str) -> None:
         read_session(tmp_path / "no session")
 
 
-def changed(path: Path, place: str, rows: object, value: object) -> Path:
+def change_file(path: Path, place: str, rows: object, value: object) -> Path:
     with h5py.File(path, "r+") as file:
         file[place][rows] = value
     return path
@@ -122,7 +124,7 @@ def changed(path: Path, place: str, rows: object, value: object) -> Path:
     ],
 )
 def test_hostile_file_impossible_values_raise(tmp_path: Path, place: str, rows: object, value: object) -> None:
-    path = changed(stored(tmp_path / "s.h5"), place, rows, value)
+    path = change_file(store_session(tmp_path / "s.h5"), place, rows, value)
     with pytest.raises(SessionUnreadable, match="damaged"):
         read_session(path)
 
@@ -140,7 +142,7 @@ def test_hostile_file_impossible_values_raise(tmp_path: Path, place: str, rows: 
     ],
 )
 def test_hostile_file_invalid_header_raises(tmp_path: Path, name: str, value: object) -> None:
-    path = stored(tmp_path / "s.h5")
+    path = store_session(tmp_path / "s.h5")
     with h5py.File(path, "r+") as file:
         file.attrs[name] = value
     if name == "complete":
@@ -182,7 +184,7 @@ def test_hostile_file_affects_reading_process_only(
 ) -> None:
     """A reader that loops for ever, dies, or asks for 3 GB: told as damaged, and the next file is read. On a busy
     computer the loop's time on the clock is over before its processor's."""
-    path = stored(tmp_path / "s.h5")
+    path = store_session(tmp_path / "s.h5")
     start_s = time.monotonic()
     with pytest.raises(SessionUnreadable, match=said):
         another.request(name, path)
@@ -201,7 +203,7 @@ def test_reading_process_works_without_main_guard(tmp_path: Path) -> None:
         "print('run')\nhold = threading.Event()\nthreading.Thread(target=hold.wait, daemon=True).start()\n"
         "print(len(read_session(Path(sys.argv[1]))))\nhold.set()\n"
     )
-    path = stored(tmp_path / "s.h5")
+    path = store_session(tmp_path / "s.h5")
     command = [sys.executable, str(script), str(path)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
     assert (done.returncode, done.stdout.split(), done.stderr) == (0, ["run", str(ROWS)], "")

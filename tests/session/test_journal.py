@@ -17,24 +17,24 @@ from carpus.core.session.columns import Blocks, build_frame_blocks
 from carpus.core.session.journal import JournalReader, unpack_arrays
 from carpus.core.session.schema import TableLayout
 from tests.moments import with_moment
-from tests.session.samples import journal_of, make_frame, make_header
+from tests.session.samples import make_frame, make_header, write_journal
 
 ROOT = Path(__file__).parents[2]
 BATCH, BATCHES = 5, 6
 
 
-def stored(path: Path) -> list[Blocks]:
+def store_rows(path: Path) -> list[Blocks]:
     with JournalReader(path) as journal:
         return [unpack_arrays(content) for kind, content in journal.read() if kind == b"ROWS"]
 
 
 def rows_stored(path: Path) -> int:
-    return sum(len(blocks["/frames/timestamp"]) for blocks in stored(path))
+    return sum(len(blocks["/frames/timestamp"]) for blocks in store_rows(path))
 
 
-def in_batches(path: Path) -> list[int]:
+def split_batches(path: Path) -> list[int]:
     """A journal of batches; the length of the file after each."""
-    journal, ends = journal_of(path), []
+    journal, ends = write_journal(path), []
     for row in range(BATCH * BATCHES):
         journal.append(make_frame(row))
         if row % BATCH == BATCH - 1:
@@ -47,7 +47,7 @@ def in_batches(path: Path) -> list[int]:
 def check_prefix(path: Path, batches: int) -> None:
     header = make_header()
     layout = TableLayout(header.protocol, header.joint_names)
-    found = stored(path)
+    found = store_rows(path)
     assert len(found) == batches
     for number, blocks in enumerate(found):
         expected = build_frame_blocks(layout, [make_frame(number * BATCH + row) for row in range(BATCH)])
@@ -58,7 +58,7 @@ def check_prefix(path: Path, batches: int) -> None:
 
 @pytest.mark.parametrize("end", ["cut", "zeros", "old bytes"])
 def test_journal_truncated_keeps_rows_before(tmp_path: Path, end: str) -> None:
-    ends = in_batches(tmp_path / "s.journal")
+    ends = split_batches(tmp_path / "s.journal")
     data, path = (tmp_path / "s.journal").read_bytes(), tmp_path / "lost.journal"
     for length in range(512, len(data), 1700):
         rest = {"cut": b"", "zeros": bytes(len(data) - length), "old bytes": data[: len(data) - length]}[end]
@@ -68,7 +68,7 @@ def test_journal_truncated_keeps_rows_before(tmp_path: Path, end: str) -> None:
 
 def test_journal_rows_are_synchronised_twice_a_second(tmp_path: Path) -> None:
     now_s = 100.0
-    journal = journal_of(tmp_path / "s.journal", clock=lambda: now_s)
+    journal = write_journal(tmp_path / "s.journal", clock=lambda: now_s)
     for row in range(60):
         now_s += 1 / 30
         journal.append(make_frame(row))
@@ -80,14 +80,14 @@ def test_journal_rows_are_synchronised_twice_a_second(tmp_path: Path) -> None:
 def test_journal_failed_start_leaves_nothing(tmp_path: Path) -> None:
     (tmp_path / "s.journal").write_text("mine")
     with pytest.raises(OutputExists):
-        journal_of(tmp_path / "s.journal")
+        write_journal(tmp_path / "s.journal")
     with pytest.raises(OutputNotWritable):
-        journal_of(tmp_path / "nowhere" / "s.journal")
+        write_journal(tmp_path / "nowhere" / "s.journal")
     assert (tmp_path / "s.journal").read_text() == "mine"
 
 
 def test_journal_unordered_times_or_wrong_shapes_raise(tmp_path: Path) -> None:
-    journal = journal_of(tmp_path / "s.journal")
+    journal = write_journal(tmp_path / "s.journal")
     journal.append(make_frame(1))
     with pytest.raises(TimesUnordered):
         journal.append(make_frame(0))
@@ -105,7 +105,7 @@ def test_journal_failed_write_raises_fault(
     def broken(_: int) -> None:
         raise OSError(number, "broken")
 
-    journal = journal_of(tmp_path / "s.journal", 1)
+    journal = write_journal(tmp_path / "s.journal", 1)
     journal.append(make_frame(1))
     monkeypatch.setattr(os, "fsync", broken)
     with pytest.raises(kind):
@@ -142,6 +142,6 @@ def test_journal_full_disk_keeps_stored_rows(tmp_path: Path) -> None:
     command = [sys.executable, "-c", BOUNDED, str(tmp_path / "s.journal")]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert rows_stored(tmp_path / "s.journal") == int(done.stdout) > 0
-    last = stored(tmp_path / "s.journal")[-1]
+    last = store_rows(tmp_path / "s.journal")[-1]
     expected = make_frame(int(done.stdout) - 1, HAND21).kinematics.joint_position_m
     np.testing.assert_array_equal(last["/joints/position"][-1], expected)

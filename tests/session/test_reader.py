@@ -15,17 +15,25 @@ from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import Event, Motion, new_header, stack_states
-from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
+from tests.session.samples import (
+    CAMERA,
+    begin_session,
+    compute_time,
+    make_calibration,
+    make_frame,
+    make_header,
+    write_once,
+)
 
 SEEN = dataclasses.replace(CAMERA, sensor=D455, distortion_model="inverse_brown_conrady")
 
 N = 12
 
 
-@written_once
+@write_once
 def write(path: Path, protocol: MarkerProtocol = WRIST6) -> Path:
-    with begun(path, make_header(protocol), N, SEEN) as session:
-        session.add_event(time_of(2), "note", "ein Wort")
+    with begin_session(path, make_header(protocol), N, SEEN) as session:
+        session.add_event(compute_time(2), "note", "ein Wort")
         session.write_motion(stack_states([make_frame(row + 100, protocol) for row in range(N)]))
     return path
 
@@ -64,7 +72,7 @@ def test_reader_returns_written_session(tmp_path: Path, protocol: MarkerProtocol
     assert session.calibration.straight_fingers == (True, True, False, True, True)
     assert session.quality.dropped_before.tolist() == [frame.dropped_before for frame in frames]
     assert session.quality.nis_dof.tolist() == [frame.nis_dof for frame in frames]
-    assert session.events == (Event(time_of(2), "note", "ein Wort"),)
+    assert session.events == (Event(compute_time(2), "note", "ein Wort"),)
     assert session.recovered == ""
     table = read_detections(session.path)
     for row, frame in enumerate(frames):
@@ -150,7 +158,7 @@ def test_session_header_foreign_parameters_are_ignored(
     tmp_path: Path, parameters: str, simulated: bool, targets_deg: tuple[float, float]
 ) -> None:
     header = dataclasses.replace(make_header(), parameters=parameters)
-    begun(tmp_path / "s.h5", header).close()
+    begin_session(tmp_path / "s.h5", header).close()
     found = read_session(tmp_path / "s.h5").header
     assert found.is_simulated == simulated
     np.testing.assert_array_equal(found.targets_deg, targets_deg)

@@ -13,8 +13,8 @@ from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.records.values import Patient, select_latest_versions
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
-from tests.records.samples import opened
-from tests.session.samples import begun
+from tests.records.samples import open_store
+from tests.session.samples import begin_session
 
 MOVED = datetime(2023, 4, 5, 14, 30, tzinfo=UTC)
 TRACKED = datetime(2026, 11, 22, 9, 0, tzinfo=UTC)
@@ -31,7 +31,7 @@ def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, r
         recording_id=recording,
     )
     path.parent.mkdir(parents=True, exist_ok=True)
-    begun(path, header, 4).close()
+    begin_session(path, header, 4).close()
     return path
 
 
@@ -56,7 +56,7 @@ def test_recording_date_ignores_camera_clock() -> None:
 
 
 def test_recording_counts_once_by_newest_result(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+    with open_store(tmp_path) as house:
         patient = house.patients.add(Patient("Linden 42", "right"))
         recording = str(uuid.uuid4())
         folder = house.store.sessions_folder / "Linden-42"

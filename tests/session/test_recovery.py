@@ -25,8 +25,8 @@ from carpus.core.records.recordings import (
 from carpus.core.session.reader import read_detections, read_session, verify
 from carpus.core.session.values import Motion, stack_states
 from tests.commands import Command
-from tests.session.samples import journal_of, make_frame, time_of
-from tests.session.test_golden import unpacked
+from tests.session.samples import compute_time, make_frame, write_journal
+from tests.session.test_golden import unpack_golden
 
 ROOT = Path(__file__).parents[2]
 N = 10
@@ -36,9 +36,9 @@ PART = "v2-wrist6.h5.0123abcd.part"
 
 def interrupt(path: Path, rows: int = N, smoothed: int = 0) -> Path:
     """A journal as a kill leaves it."""
-    journal = journal_of(path, rows)
+    journal = write_journal(path, rows)
     if rows:
-        journal.add_event(time_of(1), "note", "x")
+        journal.add_event(compute_time(1), "note", "x")
     if smoothed:
         journal.add_smoothed(stack_states([make_frame(row + 100) for row in range(smoothed)]))
     journal.close()
@@ -47,7 +47,7 @@ def interrupt(path: Path, rows: int = N, smoothed: int = 0) -> Path:
 
 def old_part(folder: Path, name: str = PART) -> Path:
     """12 rows of wrist6, an event, and 5 rows of the smoother's result, of a killed Carpus 0.2.0."""
-    path = unpacked(PART, folder).rename(folder / name)
+    path = unpack_golden(PART, folder).rename(folder / name)
     os.utime(path, (0, 0))
     return path
 
@@ -70,7 +70,7 @@ def test_recovery_interrupted_recording_equals_stopped_one(tmp_path: Path) -> No
 
 
 def test_session_draft_in_parts_equals_whole(tmp_path: Path) -> None:
-    journal = journal_of(tmp_path / "s.journal", 1100)
+    journal = write_journal(tmp_path / "s.journal", 1100)
     draft = SessionDraft(journal.path)
     draft.read()
     journal.add_smoothed(stack_states([make_frame(row) for row in range(700)]))
@@ -109,7 +109,7 @@ def test_recovery_damaged_journal_is_kept(tmp_path: Path, place: str, kept_as: s
     data = bytearray(path.read_bytes())
     data[{"image": 500, "rows": data.index(b"ROWS") + 5, "event": data.rindex(b"ROWS") + 5}[place]] ^= 1
     path.write_bytes(data)
-    journal = journal_of(tmp_path / "t.journal")  # a power cut may cost the end, which is no damage
+    journal = write_journal(tmp_path / "t.journal")  # a power cut may cost the end, which is no damage
     journal.append(make_frame(0))
     journal.flush()
     journal.append(make_frame(1))
@@ -122,7 +122,7 @@ def test_recovery_damaged_journal_is_kept(tmp_path: Path, place: str, kept_as: s
 
 
 def test_recovery_running_recording_is_left_alone(tmp_path: Path) -> None:
-    journal = journal_of(tmp_path / "s.journal", 1)
+    journal = write_journal(tmp_path / "s.journal", 1)
     program = """if True:
         import sys
         from pathlib import Path

@@ -18,7 +18,7 @@ from carpus.core.session import atomic_files, writer
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages, Motion, stack_states
 from tests.moments import with_moment
-from tests.session.samples import add_pictures, begun, make_frame, make_header
+from tests.session.samples import add_pictures, begin_session, make_frame, make_header
 
 ROOT = Path(__file__).parents[2]
 
@@ -33,7 +33,7 @@ def test_session_writer_publishes_only_complete_file(
     if not links:
         monkeypatch.setattr(os, "link", no_links)
     target = tmp_path / "s.h5"
-    session = begun(target, rows=1)
+    session = begin_session(target, rows=1)
     session.flush()
     assert [path.suffix for path in tmp_path.iterdir()] == [".tmp"]
     session.close()
@@ -41,9 +41,9 @@ def test_session_writer_publishes_only_complete_file(
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
     assert read_session(target)
     target.unlink()
-    session = begun(target, rows=1)
+    session = begin_session(target, rows=1)
     target.write_text("mine")
-    for end in (lambda: begun(target), session.close):
+    for end in (lambda: begin_session(target), session.close):
         with pytest.raises(OutputExists):
             end()
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
@@ -53,7 +53,7 @@ def test_session_writer_publishes_only_complete_file(
 
 
 def test_session_writer_fault_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt), begun(tmp_path / "s.h5", rows=1):
+    with pytest.raises(KeyboardInterrupt), begin_session(tmp_path / "s.h5", rows=1):
         raise KeyboardInterrupt
     assert list(tmp_path.iterdir()) == []
 
@@ -75,13 +75,13 @@ def test_session_writer_failed_start_leaves_nothing(
     if number:
         monkeypatch.setattr(writer, "open", refuse, raising=False)
     with pytest.raises(kind) as caught:
-        begun(tmp_path / place)
+        begin_session(tmp_path / place)
     assert kind is DiskFull or caught.value.subject == str((tmp_path / place).parent)
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
 def test_session_writer_unordered_times_or_wrong_shapes_raise(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5")
+    session = begin_session(tmp_path / "s.h5")
     session.append(make_frame(1))
     with pytest.raises(TimesUnordered):
         session.append(make_frame(0))
@@ -94,7 +94,7 @@ def test_session_writer_unordered_times_or_wrong_shapes_raise(tmp_path: Path) ->
 
 
 def test_session_writer_smoothed_rows_must_match_frames(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5", make_header(HAND21), rows=3)
+    session = begin_session(tmp_path / "s.h5", make_header(HAND21), rows=3)
     smoothed = stack_states([make_frame(row + 100, HAND21) for row in range(3)])
     with pytest.raises(ValueError, match="/smoothed"):
         session.write_motion(stack_states([make_frame(0, HAND21)]))
@@ -109,7 +109,7 @@ def test_session_writer_smoothed_rows_must_match_frames(tmp_path: Path) -> None:
 def test_session_images_are_read_back_exactly(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     pictures = [EncodedImages(b"color %d" % row * row, b"" if row == 2 else b"depth %d" % row) for row in range(5)]
-    begun(path, rows=5).close()
+    begin_session(path, rows=5).close()
     add_pictures(path, pictures)
     assert has_raw(path)
     assert raw_depth_unit_m(path) == 0.001
@@ -145,7 +145,7 @@ def test_session_writer_without_fallocate_checks_free_space(tmp_path: Path, monk
         raise OSError(errno.EOPNOTSUPP, "not here")
 
     monkeypatch.setattr(os, "posix_fallocate", unknown)
-    session = begun(tmp_path / "s.h5", rows=1)
+    session = begin_session(tmp_path / "s.h5", rows=1)
     session.flush()
     usage = atomic_files.shutil.disk_usage(tmp_path)._replace(free=1000)
     monkeypatch.setattr(atomic_files.shutil, "disk_usage", lambda _: usage)

@@ -22,7 +22,7 @@ from carpus.core.simulation.recording import (
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import compute_truth
-from tests.rendered import truth_in
+from tests.rendered import read_truth
 from tests.simulation.measurements import measurement_sequence
 
 SPEC = RecordingSpec(
@@ -62,7 +62,7 @@ def test_simulate_same_spec_gives_the_same_bytes(tmp_path: Path, monkeypatch: py
 
 
 def test_simulate_recording_reads_back_with_true_times(recording: Path) -> None:
-    truth = truth_in(SPEC, recording)
+    truth = read_truth(SPEC, recording)
     source = TumFolder(recording)
     frames = list(source.frames())
     assert len(frames) == len(truth.timestamp_s)
@@ -80,7 +80,7 @@ def test_simulate_recording_reads_back_with_true_times(recording: Path) -> None:
 
 def test_simulated_clicks_have_the_error_of_a_person(recording: Path) -> None:
     content = json.loads((recording / "calibration.json").read_text())
-    truth = truth_in(SPEC, recording)
+    truth = read_truth(SPEC, recording)
     assert content["hand"] == "left"
     assert content["protocol"] == "wrist6"
     assert tuple(content["markers"]) == SPEC.marker_protocol.markers

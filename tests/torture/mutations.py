@@ -25,18 +25,18 @@ from carpus.core.session.values import EncodedImages
 from carpus.core.session.writer import SessionWriter
 from tests.capture.oni_samples import CAMERA as SMALL
 from tests.capture.oni_samples import color_picture, depth_picture
-from tests.records.samples import opened
+from tests.records.samples import open_store
 from tests.session.samples import (
     CAMERA,
     CREATED,
     add_pictures,
-    journal_of,
+    compute_time,
     make_calibration,
     make_frame,
     make_header,
-    time_of,
+    write_journal,
 )
-from tests.session.test_golden import unpacked
+from tests.session.test_golden import unpack_golden
 
 KINDS = ("session", "part", "tum", "clicks", "settings", "register", "journal")
 NUMBERS = (0, 1, 2, 255, 65_535, 65_536, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 1 << 40, 1 << 63, (1 << 64) - 1)
@@ -51,13 +51,13 @@ def sound(kind: str, folder: Path) -> Path:
     info = SourceInfo("sample", SMALL, True, None, 30.0)
     frames = [Frame(n, n / 30.0, color_picture(n), depth_picture(n), 1e-3) for n in range(6)]
     if kind == "part":
-        return unpacked("v2-wrist6.h5.0123abcd.part", folder)
+        return unpack_golden("v2-wrist6.h5.0123abcd.part", folder)
     if kind == "journal":
-        journal = journal_of(folder / "s.journal", 30)
+        journal = write_journal(folder / "s.journal", 30)
         for row in range(30, 60):
             journal.append(make_frame(row))
             if row % 6 == 0:
-                journal.add_event(time_of(row), "note", "a note")
+                journal.add_event(compute_time(row), "note", "a note")
                 journal.flush()
         journal.close()
         return journal.path
@@ -66,7 +66,7 @@ def sound(kind: str, folder: Path) -> Path:
         writer = SessionWriter.create(folder / "s.h5", header, CAMERA, make_calibration())
         for row in range(30):
             writer.append(make_frame(row))
-        writer.add_event(time_of(3), "note", "a note")
+        writer.add_event(compute_time(3), "note", "a note")
         writer.close()
         add_pictures(writer.path, [EncodedImages(b"c" * 90, b"d" * 30)] * 30)
         return writer.path
@@ -82,7 +82,7 @@ def sound(kind: str, folder: Path) -> Path:
         lines = ("[screen]", 'theme = "dark"', "text_scale = 1.25", "[recording]", 'folder = ""', "smooth = true")
         (folder / "settings.toml").write_text("\n".join((*lines, "[live]", "max_waiting_rows = 900", "")))
         return folder / "settings.toml"
-    with opened(folder / "data") as house:
+    with open_store(folder / "data") as house:
         key = house.patients.add(Patient("Linden 42", "left", name="A Name", note="a note"))
         path = house.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
         with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
@@ -92,7 +92,7 @@ def sound(kind: str, folder: Path) -> Path:
     return folder / "data" / STORE_FILE
 
 
-def mutated(kind: str, original: Path, number: int, folder: Path) -> Path:
+def mutate_file(kind: str, original: Path, number: int, folder: Path) -> Path:
     """The ``number``-th damaged copy; the same number gives the same damage."""
     rng = np.random.default_rng([KINDS.index(kind), number])
     target = folder / f"{number}{''.join(original.suffixes) or ''}"

@@ -77,7 +77,7 @@ def read_files(kind: str, count: int, folder: Path) -> list[Outcome]:
     reader = Reader(kind)
     try:
         reader.read(-1, original)  # what is loaded for the first file is not the file's fault
-        return [reader.read(number, mutations.mutated(kind, original, number, folder)) for number in range(count)]
+        return [reader.read(number, mutations.mutate_file(kind, original, number, folder)) for number in range(count)]
     finally:
         reader.end()
 

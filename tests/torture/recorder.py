@@ -33,7 +33,7 @@ from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from tests.capture.oni_samples import color_picture
 from tests.capture.played import PlayedSource
-from tests.pipeline.live_fakes import tracked
+from tests.pipeline.live_fakes import make_tracked_frame
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
 
@@ -93,7 +93,7 @@ def main() -> None:
     live = LiveSession(PacedSource(source))
     taken = os.open(told.folder / "taken", os.O_RDWR | os.O_CREAT)
     looker = None if told.played else SmoothingProcess(TrackedHand(calibration(), CAMERA, TrackerSettings()))
-    pipeline: Callable[[Frame], TrackedFrame] = tracked
+    pipeline: Callable[[Frame], TrackedFrame] = make_tracked_frame
     if looker is not None:
         pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()))  # type: ignore[arg-type]
         live_pipeline = LivePipeline(pipeline, 10.0)

@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.records import erasure, session_records
 from carpus.core.records.data_folder import DataFolder
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
+from tests.records.samples import HERON, LINDEN, T0, House, measure, open_store, traces
 from tests.torture.kills import ROOT
 
 KINDS = ("comment", "correction", "erasure", "on a server")
@@ -58,7 +58,7 @@ def line(kind: str, count: int, folder: Path) -> str:
 
 def _kill(kind: str, number: int, folder: Path, cluster: Cluster | None) -> bool:
     url = "" if cluster is None else cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
-    with opened(folder, url) as house:
+    with open_store(folder, url) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         session_id, other = measure(house, linden, T0), measure(house, heron, T0)
     command = [sys.executable, "-c", CHILD, kind, str(folder), session_id, url]
@@ -71,10 +71,10 @@ def _kill(kind: str, number: int, folder: Path, cluster: Cluster | None) -> bool
     if kind == "erasure":
         _check_erased(folder, linden, session_id, bool(said))
     else:
-        with opened(folder, url) as house:
+        with open_store(folder, url) as house:
             _check_written(house, kind, session_id, [int(one) for one in said])
             assert house.store.startup_faults == [], "the store was not damaged"
-    with opened(folder, url) as house:
+    with open_store(folder, url) as house:
         assert house.index.get(other).path.exists()
     shutil.rmtree(folder)
     return bool(said)
@@ -92,7 +92,7 @@ def _check_written(house: House, kind: str, session_id: str, said: list[int]) ->
 
 def _check_erased(folder: Path, patient_id: str, session_id: str, done: bool) -> None:
     DataFolder(folder).close()  # the next start
-    with opened(folder) as house:
+    with open_store(folder) as house:
         begun = "Linden 42" not in house.names()
         assert begun or not done
         if not begun:

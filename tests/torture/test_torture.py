@@ -68,9 +68,9 @@ def test_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
         (data / "sessions" / kind).mkdir(parents=True)
         original = mutations.sound(kind, tmp_path / f"sound {kind}")
         for number in range(2 * TIMES):
-            mutations.mutated(kind, original, number, data / "sessions" / kind)
+            mutations.mutate_file(kind, original, number, data / "sessions" / kind)
     register = mutations.sound("register", tmp_path / "register")
-    shutil.copy(mutations.mutated("register", register, 0, tmp_path), data / "records.sqlite3")
+    shutil.copy(mutations.mutate_file("register", register, 0, tmp_path), data / "records.sqlite3")
     started = subprocess.run([sys.executable, "-c", START, str(data)], cwd=kills.ROOT, capture_output=True, text=True)
     assert started.returncode == 0, started.stderr
     told_again, set_apart = map(int, started.stdout.split())

@@ -33,7 +33,7 @@ from carpus.core.records.recordings import publish_session, recover_recordings
 from carpus.core.session.reader import READING_PROCESS
 from carpus.core.session.session_file import read_session, verify
 from carpus.core.session.values import stack_states
-from tests.session.samples import CAMERA, journal_of, make_frame, time_of
+from tests.session.samples import CAMERA, compute_time, make_frame, write_journal
 
 ROOT = Path(__file__).parents[2]
 SOURCE = Path(__file__).with_name("steps.c")
@@ -72,20 +72,20 @@ class Looked:
 
 def record(place: Path, home: Path, synced: mmap.mmap) -> None:
     """A whole recording, from its beginning into the data folder; how many rows are synchronised is noted."""
-    journal = journal_of(place / "s.journal")
+    journal = write_journal(place / "s.journal")
     session = RecordedSession(journal, Looked())  # type: ignore[arg-type]
     info = SourceInfo("x", replace(CAMERA, width_px=64, height_px=48), False, None, 30.0, {})
     pictures = RawWriter(place / "s.carpusraw", info)
     for row in range(ROWS):
         session.append(make_frame(row))
-        pictures.append_frame(Frame(row, time_of(row), PICTURE, None, 1e-3))
+        pictures.append_frame(Frame(row, compute_time(row), PICTURE, None, 1e-3))
         if row == BATCH // 2:
-            session.add_event(time_of(row), "pain", "it hurts")
+            session.add_event(compute_time(row), "pain", "it hurts")
         if row % BATCH == BATCH - 1:
             journal.flush()
             synced[:8] = struct.pack("<q", row + 1)
     session.prepare()
-    session.add_event(time_of(ROWS - 1), "note", "at the end")
+    session.add_event(compute_time(ROWS - 1), "note", "at the end")
     session.close()
     pictures.close()
     publish_session(session.path, home)
@@ -134,8 +134,8 @@ def _no_links(*_: object, **__: object) -> None:
 
 
 def _interrupted(folder: Path) -> None:
-    journal = journal_of(folder / "s.journal", ROWS)
-    journal.add_event(time_of(1), "pain", "it hurts")
+    journal = write_journal(folder / "s.journal", ROWS)
+    journal.add_event(compute_time(1), "pain", "it hurts")
     journal.close()
 
 

@@ -6,13 +6,13 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from tests.accuracy.carpus import measured_hand
+from tests.accuracy.carpus import measure_still_hand
 from tests.simulation.measurements import MeasurementSequence
 
 
 def calibrate_sequence(seen: MeasurementSequence) -> Calibration:
     """What the calibration knows of the hand."""
-    hand, _ = measured_hand(seen, CalibrationSettings())
+    hand, _ = measure_still_hand(seen, CalibrationSettings())
     assert hand.calibration is not None
     return hand.calibration
 

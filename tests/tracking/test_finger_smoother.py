@@ -11,7 +11,7 @@ from carpus.core.model.hand.protocols import joint_angle_names
 from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import restart_at_neutral
 from carpus.core.simulation.spec import RecordingSpec
-from tests.accuracy.carpus import learnt_tracker
+from tests.accuracy.carpus import calibrate_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few
 from tests.tracking.sequences import build_tracker
@@ -29,7 +29,7 @@ def smooth_recording(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatA
     """Times (N,), joint angles (N, 17) and their sds, of what is recorded from ``RECORDED_S`` on."""
     blobs = sequence()
     times = blobs.truth.timestamp_s - blobs.truth.timestamp_s[0]
-    tracker, neutral_ends_s = learnt_tracker(blobs)
+    tracker, neutral_ends_s = calibrate_tracker(blobs)
     rows: dict[float, tuple[FloatArray, FloatArray]] = {}
 
     def track_frames(until_s: float) -> None:
@@ -89,7 +89,7 @@ def test_finger_smoother_gaps_keep_joints_within_limits(gap_s: float) -> None:
     """A busy computer measures few pictures: what a rate had done by then must not be taken for turns of a joint."""
     blobs = sequence()
     times = blobs.truth.timestamp_s
-    tracker, _ = learnt_tracker(blobs)
+    tracker, _ = calibrate_tracker(blobs)
     kept = [i for i in range(len(times)) if times[i] < times[0] + 2.0]
     while (after := int(np.searchsorted(times, times[kept[-1]] + gap_s))) < len(times) - 1:
         kept += [after, after + 1]

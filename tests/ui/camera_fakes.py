@@ -17,7 +17,7 @@ from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.types import Frame
 from carpus.ui.words.camera_calibration import BoardProgress, BoardResult
 from carpus.ui.words.camera_check import CardProgress
-from tests.studio import LENS, Studio, card_scene, poses, texture_of
+from tests.studio import LENS, Studio, card_scene, poses, render_texture
 from tests.ui.fakes import NOW
 
 
@@ -25,7 +25,7 @@ from tests.ui.fakes import NOW
 def board_progress() -> tuple[Frame, BoardProgress]:
     """Two pictures of the board, the newest with what follows."""
     studio, gathering = Studio(seed=2), ViewCollector(DEFAULT_CAMERA)
-    placed = poses(texture_of(create_board_sheet(CHESSBOARD, "a4")))[2:4]
+    placed = poses(render_texture(create_board_sheet(CHESSBOARD, "a4")))[2:4]
     frames = [studio.frame([one], k, float(k)) for k, one in enumerate(placed)]
     look = [gathering.process_frame(frame) for frame in frames][-1]
     return frames[-1], BoardProgress(

@@ -325,7 +325,7 @@ class FakeMeasuring:
         self.closed = True
 
 
-def made_once(make: Callable[..., Session]) -> Callable[..., Session]:
+def cache_sessions(make: Callable[..., Session]) -> Callable[..., Session]:
     """Makes each session once; whoever would change an array that other tests see too is stopped."""
 
     @lru_cache(maxsize=64)
@@ -343,7 +343,7 @@ def made_once(make: Callable[..., Session]) -> Callable[..., Session]:
     return lambda *values, **named: one(*map(hashable, values), **{key: hashable(v) for key, v in named.items()})
 
 
-def stored(
+def build_session(
     pictures: SimulatedRecording, when: datetime, exercise: str, session_id: str, events: tuple[Event, ...], *,
     status: np.ndarray, motion: Motion, markers: MarkerSeries, quality: QualitySeries,
 ) -> Session:  # fmt: skip
@@ -360,7 +360,7 @@ def stored(
     )  # fmt: skip
 
 
-@made_once
+@cache_sessions
 def session(
     when: datetime = NOW,
     scale: float = 1.0,
@@ -380,7 +380,7 @@ def session(
         with_moment(frame, angles_rad=frame.kinematics.angles_rad * scale)
         for frame in tracked_frames(pictures, tuple(hidden), tuple(lost))
     ]
-    return stored(
+    return build_session(
         pictures, when, exercise, session_id, tuple(events),
         status=np.array([int(frame.status) for frame in frames]),
         motion=stack_states(frames),

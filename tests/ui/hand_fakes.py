@@ -14,7 +14,7 @@ from carpus.core.records.values import SessionEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session
 from carpus.core.simulation.recording import SimulatedRecording
-from tests.ui.fakes import FPS, NOW, FakeSessions, made_once, simulated, stored
+from tests.ui.fakes import FPS, NOW, FakeSessions, build_session, cache_sessions, simulated
 
 SECONDS, SPEED_HZ = 40.0, 0.2
 JOINT_SD_DEG = 2.0
@@ -23,7 +23,7 @@ HIDES_BEYOND_DEG = 55.0
 "Bending of the middle joint beyond which the finger's outer discs are not seen."
 
 
-@made_once
+@cache_sessions
 def hand_session(
     when: datetime = NOW,
     share: float = 1.0,
@@ -83,7 +83,7 @@ def hand_session(
         joint_velocity_rad_s=truth.joint_velocity_rad_s * known[:, None],
         joint_position_m=truth.joint_position_w0_m * known[:, None, None],
     )
-    return stored(
+    return build_session(
         pictures, when, exercise, session_id,
         (Event(float(truth.timestamp_s[300]), "note", "Swelling less than last week."),),
         status=status, motion=motion_values,

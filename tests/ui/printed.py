@@ -33,17 +33,17 @@ def tool(name: str, *arguments: str) -> str:
     return subprocess.run([path, *arguments], capture_output=True, text=True, check=True).stdout
 
 
-def words_of(path: Path, page: int = 0) -> str:
+def read_words(path: Path, page: int = 0) -> str:
     """All words, or those of a page, with one space between."""
     pages = ("-f", str(page), "-l", str(page)) if page else ()
     return " ".join(tool("pdftotext", "-layout", *pages, str(path), "-").split())
 
 
-def pages_of(path: Path) -> int:
+def count_pages(path: Path) -> int:
     return int(re.findall(r"Pages:\s+(\d+)", tool("pdfinfo", str(path)))[0])
 
 
-def reach_of(path: Path) -> tuple[float, float, float, float]:
+def measure_reach(path: Path) -> tuple[float, float, float, float]:
     """How far left, up, right and down the words of all pages reach, in points from the upper left corner."""
     boxes = tool("pdftotext", "-bbox", str(path), "-")
     left, top, right, foot = (

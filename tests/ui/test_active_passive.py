@@ -18,7 +18,7 @@ from carpus.ui.words.ranges import repetition_words
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.printed import words_of, write_session_report
+from tests.ui.printed import read_words, write_session_report
 
 HELPED_S = 35.0
 
@@ -103,7 +103,7 @@ def test_report_prints_both_and_what_was_measured_manually(tmp_path: Path) -> No
     path = write_session_report(
         helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", manual_values=hand_values_today()
     )
-    words = words_of(path)
+    words = read_words(path)
     assert "Active and passive" in words
     assert f"{MANUAL_SIGN} 48° / 60°" in words
     assert "passive" in words

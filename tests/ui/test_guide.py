@@ -18,7 +18,7 @@ from carpus.ui.screens.help import guide
 from carpus.ui.screens.help.cards import write_cards
 from carpus.ui.screens.help.screen import HelpScreen
 from tests.ui.conftest import Show
-from tests.ui.printed import pages_of, words_of
+from tests.ui.printed import count_pages, read_words
 
 GUIDE = Path(__file__).parents[2] / "resources" / "guide"
 ASKED = ("discs", "camera", "calibration", "exercises", "figures", "limits", "trouble")
@@ -121,8 +121,8 @@ def test_page_html_escapes_text(theme: Theme) -> None:
 
 def test_write_cards_makes_two_pages_with_their_texts(qtbot: QtBot, tmp_path: Path) -> None:
     write_cards(tmp_path / "cards.pdf")
-    assert pages_of(tmp_path / "cards.pdf") == 2
-    assert "Thumb base (CMC)" in words_of(tmp_path / "cards.pdf", 1)
-    assert "70 to 80 cm" in words_of(tmp_path / "cards.pdf", 2)
+    assert count_pages(tmp_path / "cards.pdf") == 2
+    assert "Thumb base (CMC)" in read_words(tmp_path / "cards.pdf", 1)
+    assert "70 to 80 cm" in read_words(tmp_path / "cards.pdf", 2)
     with pytest.raises(OutputNotWritable):
         write_cards(tmp_path / "cards.pdf" / "no folder" / "cards.pdf")

@@ -15,7 +15,7 @@ from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
-from tests.ui.printed import words_of, write_session_report
+from tests.ui.printed import read_words, write_session_report
 
 BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 
@@ -76,7 +76,7 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
 def test_second_page_has_papers_values(tmp_path: Path) -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     path = write_session_report(made, tmp_path / "reach.pdf")
-    first, second = (words_of(path, page) for page in (1, 2))
+    first, second = (read_words(path, page) for page in (1, 2))
     for words in (
         "page 2", "Path of the wrist", "Fingertip paths", "Position, speed, rotation", "ZYZ angles", "XY", "ZX",
         "ZY", "Movement time, outward", "mm/s", "Number of speed peaks, return", "Not a medical device",

@@ -41,7 +41,7 @@ from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.printed import pages_of, reach_of, tool, words_of, write_session_report
+from tests.ui.printed import count_pages, measure_reach, read_words, tool, write_session_report
 
 LONG = "\n".join(f"Line {number} of what the therapist says." for number in range(120))
 
@@ -66,10 +66,10 @@ def test_report_is_not_cut_on_a4_or_letter(paper: Paper, tmp_path: Path) -> None
     width, height = PAPER_PT[paper]
     (size,) = re.findall(r"Page size:\s+([\d.]+) x ([\d.]+)", tool("pdfinfo", str(path)))
     assert tuple(map(float, size)) == pytest.approx((width, height), abs=1.0)
-    left, top, right, foot = reach_of(path)
+    left, top, right, foot = measure_reach(path)
     assert min(left, width - right, height - foot) >= 28.0
     assert top >= 20.0
-    words, pages = words_of(path), pages_of(path)
+    words, pages = read_words(path), count_pages(path)
     assert pages >= 4
     assert words.count("12 Riverside Road") == words.count(LEGAL_SENTENCE) == pages
     assert f"page {pages} of {pages}" in words
@@ -88,7 +88,7 @@ def test_report_last_pages_are_the_comment_behind_any_other(monkeypatch: pytest.
     section = ReportSection("rows", phrase("Rows"), make_pages=make_pages)
     monkeypatch.setattr(session_page, "SECTIONS", (*SECTIONS, section))
     path = write_session_report(report(comment=LONG), tmp_path / "x.pdf")
-    words, pages = tool("pdftotext", "-layout", str(path), "-").split("\f"), pages_of(path)
+    words, pages = tool("pdftotext", "-layout", str(path), "-").split("\f"), count_pages(path)
     of_rows = [number for number, page in enumerate(words, 1) if "Row 1" in page or "Row 9" in page]
     of_comment = [number for number, page in enumerate(words, 1) if "of what the therapist says" in page]
     assert of_comment == [pages - 2, pages - 1, pages]
@@ -98,7 +98,7 @@ def test_report_last_pages_are_the_comment_behind_any_other(monkeypatch: pytest.
     told = re.findall(r"Row (\d+)", "".join(words))
     assert list(map(int, told)) == list(range(130)), "each row once, in order"
     left_out = replace(report(comment="Short."), form=ReportForm(excluded_sections=frozenset({"rows"})))
-    assert "Row 1" not in words_of(write_session_report(left_out, tmp_path / "y.pdf"))
+    assert "Row 1" not in read_words(write_session_report(left_out, tmp_path / "y.pdf"))
 
 
 def test_progress_report_lists_all_manual_values_that_have_no_room(tmp_path: Path) -> None:
@@ -107,16 +107,16 @@ def test_progress_report_lists_all_manual_values_that_have_no_room(tmp_path: Pat
     values = [ManualValue(names[number % 6], "active", "right", day, (20.0,)) for number, day in enumerate(days)]
     course = build_progress_report(FakeSessions().history("linden"), manual_values=values)
     path = write_report(course, tmp_path / "x.pdf")
-    words = words_of(path)
+    words = read_words(path)
     assert "see the next page for the complete list" in words
-    assert words.count(LEGAL_SENTENCE) == pages_of(path) > 2
+    assert words.count(LEGAL_SENTENCE) == count_pages(path) > 2
     assert [day for day in days if numbers.format_date(day) not in words] == []
 
 
 def test_report_mandatory_sections_stay(tmp_path: Path) -> None:
     made = report(form=ReportForm(excluded_sections=frozenset(section.name for section in SECTIONS if section.label)))
     doubtful = replace(made, results=replace(made.results, is_simulated=True))
-    words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
+    words = read_words(write_session_report(doubtful, tmp_path / "x.pdf"))
     sure = "How reliable are these values?"
     for kept in (
         LEGAL_SENTENCE,
@@ -184,13 +184,13 @@ def test_letter_of_any_length_is_one_page(language: str, hand: bool, tmp_path: P
             replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), named, language
         )
         path = write_report(letter, tmp_path / f"{len(comment)}.pdf")
-        assert pages_of(path) == 1
-        words = words_of(path)
+        assert count_pages(path) == 1
+        words = read_words(path)
         assert f"Real Name ({made.pseudonym})" in words
         assert f"Carpus {made.results.software_version}" in words
         assert ("Short, and kept." in words) == (comment != LONG)
         assert "Line 3 of" not in words
-        _, _, right, foot = reach_of(path)
+        _, _, right, foot = measure_reach(path)
         assert (right <= 612.0 - 28.0, foot <= 792.0 - 28.0) == (True, True)
 
 
@@ -202,8 +202,8 @@ def test_dialog_for_home_is_one_page_in_patients_language(
     language: str, names: tuple[str, ...], tmp_path: Path
 ) -> None:
     path = write_report(home_report(language, "left", names), tmp_path / "home.pdf")
-    assert pages_of(path) == 1
-    words = words_of(path)
+    assert count_pages(path) == 1
+    words = read_words(path)
     with use_language(language):
         said = [task_words(name) for name in names]
     assert all(one in words for one in said)
@@ -241,7 +241,7 @@ def test_home_dialog_shows_no_deterioration() -> None:
 
 def test_letter_names_no_one_unless_asked(tmp_path: Path) -> None:
     made = report()
-    words = words_of(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
+    words = read_words(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
     kept = ("Dr A", "Vienna", "22 Nov 2026", "Total arc", "± ", "first session on", LEGAL_SENTENCE[:60])
     assert all(one in words for one in (f"camera: {made.pseudonym} Dear", *kept))
 
@@ -256,8 +256,8 @@ def test_reports_print_the_real_name_in_their_language_where_asked(tmp_path: Pat
         (replace(home, report=replace(made, printed_patient=erika)), "geb. 12. März 1981, Nr. PR-1"),
     )
     for number, (page, born) in enumerate(pages):
-        assert f"Erika Muster, {born}" in words_of(write_report(page, tmp_path / f"{number}.pdf")).replace("\n", " ")
-    assert "Erika" not in words_of(write_report(made, tmp_path / "plain.pdf"))
+        assert f"Erika Muster, {born}" in read_words(write_report(page, tmp_path / f"{number}.pdf")).replace("\n", " ")
+    assert "Erika" not in read_words(write_report(made, tmp_path / "plain.pdf"))
 
 
 def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None:
@@ -266,7 +266,7 @@ def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None
     own = replace(report(), diagnosis="Wrist fracture, plate", onset="operation", onset_day=day)
     asked = replace(own, form=replace(own.form, excluded_sections=frozenset()))
     for one, printed in ((own, False), (asked, True)):
-        said = words_of(write_session_report(one, tmp_path / f"{printed}.pdf"))
+        said = read_words(write_session_report(one, tmp_path / f"{printed}.pdf"))
         assert [words in said for words in ("Wrist fracture, plate", "13 weeks before")] == [printed, printed]
 
 
@@ -279,9 +279,9 @@ def test_report_printed_on_other_paper_is_not_cut(printed: Paper, tmp_path: Path
     printer.setOutputFileName(str(tmp_path / "p.pdf"))
     printer.setPageSize(QPageSize(PAGE_SIZES[printed]))
     print_pages(printer, pages)
-    assert pages_of(tmp_path / "p.pdf") == 2
-    assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
-    assert "live values, not smoothed" in words_of(tmp_path / "p.pdf")
+    assert count_pages(tmp_path / "p.pdf") == 2
+    assert measure_reach(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
+    assert "live values, not smoothed" in read_words(tmp_path / "p.pdf")
 
 
 def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:

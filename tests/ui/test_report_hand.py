@@ -24,7 +24,7 @@ from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
-from tests.ui.printed import overlapping_words, pages_of, words_of, write_session_report
+from tests.ui.printed import count_pages, overlapping_words, read_words, write_session_report
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def plain(text: str) -> str:
 
 def test_report_hand_page_has_fingers_totals_and_visibility(store: FakeHandSessions, tmp_path: Path) -> None:
     path = write_session_report(store.session("hand-7"), tmp_path / "h.pdf", history=store.history("x"))
-    assert pages_of(path) == 2
-    words = plain(words_of(path))
+    assert count_pages(path) == 2
+    words = plain(read_words(path))
     figures = figures_once(store.session("hand-7"))
     for row in finger_table(figures, None).rows:
         for cell in row:
@@ -117,7 +117,7 @@ def test_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen(
 
 def test_hand_never_tracked_gives_honest_page(tmp_path: Path) -> None:
     path = write_session_report(hand_session(lost=[(0.0, 99.0)]), tmp_path / "h.pdf")
-    words = plain(words_of(path))
+    words = plain(read_words(path))
     assert "index not visible" in words
     assert "0.0 % of" in words
 

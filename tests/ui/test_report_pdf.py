@@ -19,11 +19,11 @@ from carpus.ui.report.session_page import build_session_report
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
 from tests.ui.printed import (
+    count_pages,
+    measure_reach,
     overlapping_words,
-    pages_of,
-    reach_of,
+    read_words,
     tool,
-    words_of,
     write_session_report,
 )
 
@@ -41,7 +41,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Path) -> None:
-    assert pages_of(report) == 2
+    assert count_pages(report) == 2
     assert "A4" in tool("pdfinfo", str(report))
     fonts = tool("pdffonts", str(report)).splitlines()[2:]
     assert fonts
@@ -50,7 +50,7 @@ def test_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Path) -
         embedded, _, unicode_map = line.split()[-5:-2]
         assert (embedded, unicode_map) == ("yes", "yes")
     assert tool("pdfimages", "-list", str(report)).splitlines()[2:] == []
-    first, second = (words_of(report, page).split() for page in (1, 2))
+    first, second = (read_words(report, page).split() for page in (1, 2))
     assert {"Radial", "Ulnar", "Rotation"} <= set(first)
     assert {"mm/s", "+100°/s", "Rotation"} <= set(second)
     paths = [tool("pdftocairo", "-svg", "-f", page, "-l", page, str(report), "-").count("<path") for page in "12"]
@@ -58,7 +58,7 @@ def test_report_is_two_pages_of_a4_in_embedded_fonts_and_vectors(report: Path) -
 
 
 def test_values_on_page_are_those_of_session(report: Path) -> None:
-    words = words_of(report)
+    words = read_words(report)
     figures = figures_once(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
     for row in figures.wrist_ranges:
         assert f"{row.mean:.0f}° ± {max(1, round(row.sd))}°" in words
@@ -76,7 +76,7 @@ def test_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> N
     said = {"provenance": {"revision": "0123456789" * 4}, "source": {"sha256": "ab12" + "0" * 56 + "cd34"}}
     header = replace(made.header, parameters=json.dumps(said), software_version="10.11.12")
     path = write_session_report(replace(made, header=header), tmp_path / "foot.pdf")
-    foot, research = words_of(path, 1), words_of(path, 2)
+    foot, research = read_words(path, 1), read_words(path, 2)
     assert "Carpus 10.11.12" in foot
     assert "ab12" not in foot, "digests are on the page for research"
     assert "revision 0123456" in research
@@ -95,7 +95,7 @@ def test_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: Pa
         header=replace(stored.header, parameters=parameters),
         calibration=replace(stored.calibration, verdict=verdict),
     )
-    doubted, usual = words_of(write_session_report(stored, tmp_path / "report.pdf")), words_of(report)
+    doubted, usual = read_words(write_session_report(stored, tmp_path / "report.pdf")), read_words(report)
     for words in (
         "Simulated data: no patient was measured.",
         "Measured although uncertain: The hand is tilted 22° to the camera",
@@ -116,12 +116,12 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
     choices = RepetitionChoices(dict.fromkeys(range(4), "pain, and looked away from the screen"))
     made = replace(stored, calibration=doubtful)
     path = write_session_report(made, tmp_path / "x.pdf", choices=choices, pseudonym=pseudonym)
-    assert pages_of(path) == 2
-    words = words_of(path)
+    assert count_pages(path) == 2
+    words = read_words(path)
     assert words.count("from its expected position") == len(markers)
     for kept in (pseudonym, LEGAL_SENTENCE, f"Session {stored.header.session_id[:8]}"):
         assert kept in words
-    left, _, right, foot = reach_of(path)
+    left, _, right, foot = measure_reach(path)
     assert left >= 42.52 - 2.0
     assert right <= 595.28 - 42.52 + 2.0
     assert foot < 841.9 - 28.3, "a centimetre of margin"
@@ -129,7 +129,7 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
 
 def test_session_without_any_tracked_frame_still_gives_honest_page(tmp_path: Path) -> None:
     path = write_session_report(session(seconds=10.0, lost=[(0.0, 99.0)]), tmp_path / "x.pdf")
-    words = words_of(path)
+    words = read_words(path)
     assert "No range of motion could be measured." in words
     assert "0.0 % of" in words
     assert "of an angle is about" not in words, "nothing is known"

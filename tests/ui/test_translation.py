@@ -19,7 +19,7 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.numbers import format_day_month
 from carpus.ui.kit.translate import tr
 from installer import translations
-from tests.sources import ROOT, SOURCES, modules, parsed
+from tests.sources import ROOT, SOURCES, modules, parse_file
 
 UI = modules("ui")
 
@@ -38,7 +38,7 @@ def tr_calls(path: Path) -> list[tuple[ast.Call, bool, bool]]:
                     found.append((child, method, in_class))
             walk(child, in_class or isinstance(child, ast.ClassDef))
 
-    walk(parsed(path), False)
+    walk(parse_file(path), False)
     return found
 
 

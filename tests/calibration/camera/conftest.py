@@ -10,7 +10,7 @@ from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrat
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.types import Frame
 from tests.calibration.camera.printed import ShownSheets
-from tests.studio import Studio, poses, texture_of
+from tests.studio import Studio, poses, render_texture
 
 
 @pytest.fixture(scope="package")
@@ -21,7 +21,7 @@ def studio() -> Studio:
 @pytest.fixture(scope="package")
 def shown(studio: Studio) -> list[Frame]:
     """All that a person showed of the chessboard, a picture a second."""
-    texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
+    texture = render_texture(create_board_sheet(CHESSBOARD, "a4"))
     return list(ShownSheets(studio, [[placed] for placed in poses(texture)]).frames())
 
 

@@ -29,8 +29,8 @@ from carpus.core.model.types import FloatArray, Frame
 from tests.studio import (
     LENS,
     Studio,
-    held,
-    texture_of,
+    build_held_sheet,
+    render_texture,
 )
 
 
@@ -138,8 +138,8 @@ def test_next_instruction_names_what_is_missing(gathered: ViewCollector) -> None
 
 
 def test_board_view_nearer_side_is_right(studio: Studio) -> None:
-    texture = texture_of(create_board_sheet(CHESSBOARD, "a4"))
-    placed = held(texture, (0.0, 0.0, 0.55), 30.0, 90.0, 0.0)
+    texture = render_texture(create_board_sheet(CHESSBOARD, "a4"))
+    placed = build_held_sheet(texture, (0.0, 0.0, 0.55), 30.0, 90.0, 0.0)
     gathering = ViewCollector(DEFAULT_CAMERA)
     assert gathering.add(studio.frame([placed], 0, 0.0))
     left, right = (placed.rotation[2] @ [x, 0.1, 0.0] + placed.shift_m[2] for x in (0.0, 0.29))

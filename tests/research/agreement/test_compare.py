@@ -23,9 +23,9 @@ from carpus.core.research.agreement.time_alignment import AlignmentCurves, Clock
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.values import Session
 from tests.commands import Command
-from tests.formats.takes import stored, take_of
+from tests.formats.takes import build_take, store_session
 from tests.ui.fakes import session as flexing
-from tests.ui.printed import pages_of, words_of
+from tests.ui.printed import count_pages, read_words
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +102,7 @@ def test_compare_given_lag_is_used(session: Session) -> None:
 
 
 def test_compare_session_with_its_exports_agrees(session: Session, tmp_path: Path) -> None:
-    take = take_of(replace(session, path=tmp_path / "s.h5"), "s")
+    take = build_take(replace(session, path=tmp_path / "s.h5"), "s")
     mot.write(take, tmp_path)
     found = compare_session(session, read_reference(tmp_path / "s.mot"))
     assert [one.name for one in found.pairs] == list(WRIST_ANGLES)
@@ -125,7 +125,7 @@ def test_compare_points_are_aligned_rigidly(session: Session, kind: str, tmp_pat
         rigid, markers=replace(session.markers, position_cam_m=elsewhere), motion=session.motion, path=tmp_path / "s.h5"
     )
     writer = c3d_write if kind == "c3d" else trc
-    writer.write(take_of(theirs, "s"), tmp_path)
+    writer.write(build_take(theirs, "s"), tmp_path)
     found = compare_session(rigid, read_reference(tmp_path / f"s.{kind}"))
     assert found.alignment.residual_m < 5e-4
     flexion = next(one for one in found.pairs if one.name == "flexion").figures_deg
@@ -204,7 +204,7 @@ def test_compare_another_movement_is_refused(session: Session) -> None:
 
 
 def test_compare_command_writes_tables_and_plots_with_limit(tmp_path: Path, command: Command) -> None:
-    path, out = stored(tmp_path, frames=90, moving=True), tmp_path / "out"
+    path, out = store_session(tmp_path, frames=90, moving=True), tmp_path / "out"
     done = command("compare", path, path, "--limit", "5", "--output", out)
     assert done.code == 0
     content = json.loads((out / "one-against-one.agreement.json").read_text(encoding="utf-8"))
@@ -216,10 +216,10 @@ def test_compare_command_writes_tables_and_plots_with_limit(tmp_path: Path, comm
         picture = cv2.imread(str(out / f"one-against-one.{name}.png"))
         assert picture.shape == (960, 2240, 3)
         assert min(picture[:, :1120].std(), picture[:, 1120:].std()) > 5.0, "two plots are drawn"
-    words = words_of(out / "one-against-one.pdf")
+    words = read_words(out / "one-against-one.pdf")
     for piece in ("Flexion–extension", "RMSE", "Reference", "Limit", "hatched: within the limit you set"):
         assert piece in words
-    assert pages_of(out / "one-against-one.pdf") == len(WRIST_ANGLES)
+    assert count_pages(out / "one-against-one.pdf") == len(WRIST_ANGLES)
 
 
 @pytest.mark.parametrize("name", ["x.c3d", "x.trc", "x.mot", "x.csv", "x.xyz"])

@@ -34,7 +34,7 @@ from carpus.ui.kit.text import Text
 from tests.commands import Command
 from tests.moments import with_moment
 from tests.results.days import with_ranges
-from tests.session.samples import begun, make_calibration, make_frame
+from tests.session.samples import begin_session, make_calibration, make_frame
 
 if TYPE_CHECKING:
     from carpus.ui.screens.settings.flow import SettingsFlow
@@ -92,7 +92,7 @@ def write_session(folder: Path, person: int, time: int, when: datetime, reach_de
     set_up = make_calibration()
     seen_from_above = np.diag([1.0, -1.0, -1.0])
     set_up = replace(set_up, verdict=replace(set_up.verdict, findings=()), rotation_w0_cam=seen_from_above)
-    with begun(path, header, calibration=set_up) as writer:
+    with begin_session(path, header, calibration=set_up) as writer:
         for row in range(160):
             angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 40.0)
             turn = so3.exp(np.array([0.0, angle, 0.0]))

@@ -20,7 +20,7 @@ from carpus.core.research.agreement.study import PooledAngle, _pooling_remarks
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from tests.commands import Command
-from tests.formats.takes import stored
+from tests.formats.takes import store_session
 
 OFFSETS = {"anna": (2.0, 2.4), "bert": (-1.0, -0.6), "cleo": (0.5, 0.7), "dora": (3.0,)}
 """How far each person's references lie off, degrees."""
@@ -48,7 +48,7 @@ def write_table(path: Path, rows: Iterable[tuple[str, str, str]]) -> Path:
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = tmp_path_factory.mktemp("study")
-    session = stored(root, frames=300, moving=True)
+    session = store_session(root, frames=300, moving=True)
     rows = []
     for person, offsets in OFFSETS.items():
         for number, off_deg in enumerate(offsets):

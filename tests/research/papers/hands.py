@@ -21,7 +21,7 @@ MIDDLE_M = np.array([0.01, 0.07, 0.68])
 MEASURED = PaperSettings(palm="measured")
 
 
-def seen_px(point_cam_m: FloatArray) -> FloatArray:
+def project_discs(point_cam_m: FloatArray) -> FloatArray:
     return np.asarray(525.0 * point_cam_m[..., :2] / point_cam_m[..., 2:] + [319.5, 239.5])
 
 
@@ -30,7 +30,7 @@ def calibration(
 ) -> Calibration:
     """A calibration that knows discs (M, 3) in W0."""
     count = len(protocol.markers)
-    pixel = seen_px(disc_m @ rotation.T + MIDDLE_M)
+    pixel = project_discs(disc_m @ rotation.T + MIDDLE_M)
     verdict = Verdict(np.zeros(count), 180.0, 0.0, 0.68, 15, ())
     covariance = np.broadcast_to(1e-8 * np.eye(3), (count, 3, 3))
     return Calibration(Clicks(side, protocol, pixel), disc_m, rotation, MIDDLE_M, covariance, np.zeros(3), verdict)
@@ -65,7 +65,7 @@ def palm_blobs(
     """An arched palm that turns about its WRIST disc."""
     rng = np.random.default_rng(seed)
     turns = [build_rotation(*angles_deg(i / 30.0), side=side) for i in range(count)]
-    return [blobs(seen_px(palm(side) @ turn.T @ FROM_ABOVE.T + MIDDLE_M), rng) for turn in turns]
+    return [blobs(project_discs(palm(side) @ turn.T @ FROM_ABOVE.T + MIDDLE_M), rng) for turn in turns]
 
 
 def finger_blobs(
@@ -74,7 +74,7 @@ def finger_blobs(
     anatomy, _ = straight_hand()
     rng = np.random.default_rng(seed)
     places = [joint_centres(anatomy, joints_rad(i / 30.0)) @ rotation.T + MIDDLE_M for i in range(count)]
-    return [blobs(seen_px(place), rng) for place in places]
+    return [blobs(project_discs(place), rng) for place in places]
 
 
 def hand_calibration(rotation: FloatArray) -> Calibration:
