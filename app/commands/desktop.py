@@ -64,7 +64,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
     loaded, told = load_valid_settings()
     settings = with_data_folder(loaded, data_folder)
     usual = loaded.data_folder if loaded.data_folder.is_dir() else None
-    is_reopened = False
+    is_reopened, patient_id = False, ""
     while True:
         opened = _open_desktop(
             qt, splash, settings, is_demo=is_demo, default_folder=usual, file=file, startup_faults=told
@@ -73,7 +73,8 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
             return opened
         desktop, alone = opened
         try:
-            code = _run_desktop(desktop, splash, file, is_demo=is_demo, is_reopened=is_reopened)
+            code = _run_desktop(desktop, splash, file, is_demo=is_demo, is_reopened=is_reopened, patient_id=patient_id)
+            patient_id = desktop.controller.patients.screen.selected_patient_id
         finally:
             desktop.close()
             alone.release()
@@ -150,12 +151,12 @@ def _open_desktop(
 
 
 def _run_desktop(
-    desktop: Desktop, splash: QSplashScreen, file: Path | None, *, is_demo: bool, is_reopened: bool
+    desktop: Desktop, splash: QSplashScreen, file: Path | None, *, is_demo: bool, is_reopened: bool, patient_id: str
 ) -> int:
     try:
-        desktop.show(is_reopened=is_reopened)
+        desktop.show(is_reopened=is_reopened, patient_id=patient_id)
         splash.close()
-        if is_demo and not desktop.is_closed:
+        if is_demo and not is_reopened and not desktop.is_closed:
             desktop.controller.patients.screen.refresh(PRACTICE_PATIENT)
         if file is not None and not desktop.is_closed:
             desktop.open_file(file)

@@ -183,7 +183,8 @@ class PracticeSystemController(QObject):
     # --- settings ---------------------------------------------------------------------------------------------
     def _connect_settings(self) -> None:
         chosen = self._folders
-        card = PracticeSystemCard(self._controller.context.theme, chosen.requests, chosen.results)
+        context = self._controller.context
+        card = PracticeSystemCard(context.theme, chosen.requests, chosen.results, is_demo=context.is_demo)
         card.changed.connect(
             lambda requests, results: self._preferences.save(practice_system=PracticeSystemSettings(requests, results))
         )

@@ -71,10 +71,11 @@ class Desktop:
     _closed: bool = False
     _preloading: Background = field(default_factory=Background)
 
-    def show(self, *, is_reopened: bool = False) -> None:
-        """Show the first screen; after a change of language the settings, without asking for the PIN again."""
+    def show(self, *, is_reopened: bool = False, patient_id: str = "") -> None:
+        """Show the first screen with a patient selected; after a change of language the settings, without the PIN."""
         # The newest session is on top, but for simulated ones, which count nowhere.
-        self.controller.patients.open(self.library.session_list.last_patient_id() if self.controller.is_demo else "")
+        demo_patient = self.library.session_list.last_patient_id() if self.controller.is_demo else ""
+        self.controller.patients.open(patient_id or demo_patient)
         restore_window(self.shell, RecentLocations(self.library.folder).window_geometry())
         self.shell.create()  # what hides the names must be there before anything is seen
         if is_reopened:

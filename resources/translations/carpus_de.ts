@@ -9257,6 +9257,10 @@ von oben</translation>
         <source>Results for the clinic software</source>
         <translation>Ergebnisse für die Praxissoftware</translation>
     </message>
+    <message>
+        <source>The demo watches no folder.</source>
+        <translation>Die Demo überwacht keinen Ordner.</translation>
+    </message>
 </context>
 <context>
     <name>PreviousPhoto</name>

@@ -9257,6 +9257,10 @@ dall’alto</translation>
         <source>Results for the clinic software</source>
         <translation>Risultati per il gestionale</translation>
     </message>
+    <message>
+        <source>The demo watches no folder.</source>
+        <translation>La demo non sorveglia alcuna cartella.</translation>
+    </message>
 </context>
 <context>
     <name>PreviousPhoto</name>

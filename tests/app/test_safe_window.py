@@ -314,12 +314,22 @@ def test_pin_is_set_changed_and_removed_in_settings(qtbot: QtBot, opened: Open, 
     assert not Pin(data).is_set
 
 
+@pytest.mark.parametrize(("listed", "expected", "chosen"), [((), ["AB"], "AB"), ((Therapist("KB"),), ["KB"], "")])
+def test_initials_of_earlier_settings_are_listed_but_not_those_of_a_removed_therapist(
+    opened: Open, data: Path, listed: tuple[Therapist, ...], expected: list[str], chosen: str
+) -> None:
+    with closing(DataFolder(data)) as library:
+        save_therapists(library.store, listed)
+    desktop = opened(Settings(recording=RecordingSettings(folder=str(data)), report=ReportSettings(therapist="AB")))
+    assert [one.initials for one in read_therapists(desktop.library.store)] == expected
+    assert desktop.preferences.settings.report.therapist == chosen
+
+
 def test_lock_hides_names_and_asks_who_works(opened: Open, data: Path, tmp_path: Path, qtbot: QtBot) -> None:
     with closing(DataFolder(data)) as library:
-        save_therapists(library.store, [Therapist("KB", "Katrin Berger")])
+        save_therapists(library.store, [Therapist("AB"), Therapist("KB", "Katrin Berger")])
     Pin(data).set("1234")
     desktop = opened(Settings(recording=RecordingSettings(folder=str(data)), report=ReportSettings(therapist="AB")))
-    assert [one.initials for one in read_therapists(desktop.library.store)] == ["AB", "KB"], "the old setting is listed"
     lock, bar = desktop.data_protection.locking.lock_screen, desktop.shell.top_bar
     assert (lock.isVisible(), lock.therapist.currentData()) == (True, "AB")
     lock.therapist.choose("KB")

@@ -128,6 +128,7 @@ def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
     assert not render_image(screen.chart).isNull()
     screen.exercise_choice.setCurrentIndex(1 - screen.exercise_choice.currentIndex())
     assert screen.answer_text.text() == "At least two sessions are needed to show progress."
+    assert screen._side.isHidden(), "nothing would stand beside the curves"
 
 
 def test_review_hides_previous_session_while_loading(qtbot: QtBot, screen: ReviewScreen) -> None:

@@ -19,7 +19,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text,
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 
 BAR_PX = 56
-MIN_NAME_PX = 120
+MIN_NAME_PX = 300
 RECORDING_LINE_PX = 3
 
 

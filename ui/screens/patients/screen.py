@@ -125,19 +125,19 @@ class PatientsScreen(QWidget):
     def _connect(self) -> None:
         self.search.installEventFilter(self)
         self.list.installEventFilter(self)
-        self.search.textChanged.connect(lambda: self._apply_filter(self._current_patient_id()))
+        self.search.textChanged.connect(lambda: self._apply_filter(self.selected_patient_id))
         self.new_button.clicked.connect(self.new_patient)
         self._empty_view.button.clicked.connect(lambda: self.new_patient(self.search.text()))
         self._offline_view.button.clicked.connect(self._measure_unlisted)
         self.list.selectionModel().currentChanged.connect(self._show_selected)
         self.list.doubleClicked.connect(lambda: self._start())
         self.card.start_button.clicked.connect(self._start)
-        self.card.change_button.clicked.connect(lambda: self.setup_requested.emit(self._current_patient_id()))
-        self.card.review_button.clicked.connect(lambda: self.review_requested.emit(self._current_patient_id()))
-        self.card.progress_button.clicked.connect(lambda: self.progress_requested.emit(self._current_patient_id()))
-        self.card.sessions_button.clicked.connect(lambda: self.sessions_requested.emit(self._current_patient_id()))
-        self.card.edit_button.clicked.connect(lambda: self.change_patient(self._current_patient_id()))
-        self._names.changed.connect(lambda: self._apply_filter(self._current_patient_id()))
+        self.card.change_button.clicked.connect(lambda: self.setup_requested.emit(self.selected_patient_id))
+        self.card.review_button.clicked.connect(lambda: self.review_requested.emit(self.selected_patient_id))
+        self.card.progress_button.clicked.connect(lambda: self.progress_requested.emit(self.selected_patient_id))
+        self.card.sessions_button.clicked.connect(lambda: self.sessions_requested.emit(self.selected_patient_id))
+        self.card.edit_button.clicked.connect(lambda: self.change_patient(self.selected_patient_id))
+        self._names.changed.connect(lambda: self._apply_filter(self.selected_patient_id))
         self.form.saved.connect(self._show_saved)
         self.form.remove_button.clicked.connect(lambda: self.delete_requested.emit(self.form.patient.patient_id))
 
@@ -155,7 +155,7 @@ class PatientsScreen(QWidget):
             practice = replace(self._store.register.get(PRACTICE_PATIENT), pseudonym=self.tr("Practice patient"))
             rows, archived = (*self._store.list_patients(), practice), tuple(self._store.list_archived_names())
         except ServerUnavailable:
-            self._show_offline(selected_id or self._current_patient_id())
+            self._show_offline(selected_id or self.selected_patient_id)
             return
         if was_away:
             self._offline_view.hide()
@@ -163,13 +163,13 @@ class PatientsScreen(QWidget):
             self.search.setPlaceholderText(self._search_words)
             self.new_button.setEnabled(True)
         self._rows, self._archived_names = rows, archived
-        self._apply_filter(selected_id or self._current_patient_id())
+        self._apply_filter(selected_id or self.selected_patient_id)
 
     def show_patient(self, patient: Patient) -> None:
         """Select a patient; one whom the list does not show, of very many or archived, is searched for."""
         self.search.clear()
         self.refresh(patient.patient_id)
-        if self._current_patient_id() != patient.patient_id:
+        if self.selected_patient_id != patient.patient_id:
             self.search.setText(patient.pseudonym)
             self._apply_filter(patient.patient_id)
 
@@ -285,12 +285,14 @@ class PatientsScreen(QWidget):
         self.archive_button.setVisible(bool(found))
         self.archive_button.set_label(self.tr("In the archi&ve: {names}").format(names=names.replace("&", "&&")))
 
-    def _current_patient_id(self) -> str:
+    @property
+    def selected_patient_id(self) -> str:
+        """Id of the selected patient; empty for none."""
         index: QModelIndex = self.list.currentIndex()
         return self.list.patient_model.row(index.row()).patient_id if index.isValid() else ""
 
     def _show_selected(self, *_: object) -> None:
-        self._show_card(self._current_patient_id())
+        self._show_card(self.selected_patient_id)
         self._fit_card()
 
     def _show_card(self, chosen: str) -> None:
@@ -306,7 +308,7 @@ class PatientsScreen(QWidget):
             )
 
     def _start(self) -> None:
-        if chosen := self._current_patient_id():
+        if chosen := self.selected_patient_id:
             self.start_requested.emit(chosen)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -318,7 +320,7 @@ class PatientsScreen(QWidget):
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
                 if not self._offline_view.isHidden():
                     self._measure_unlisted()
-                elif self._current_patient_id():
+                elif self.selected_patient_id:
                     self._start()
                 elif self._empty_view.isVisible():
                     self.new_patient(self.search.text())

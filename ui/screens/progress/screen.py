@@ -244,6 +244,8 @@ class ProgressScreen(FittedWidget):
         self._fill_table()
         self._fill_manual_values()
         self._fill_comparability()
+        cards = (self._change_card, self._manual_card, self._comparability_card)
+        self._side.setVisible(not all(card.isHidden() for card in cards))
 
     def _fill_table(self) -> None:
         clear_layout(self._change_card.body)

@@ -21,7 +21,7 @@ class PracticeSystemCard(Card):
     changed = Signal(str, str)
     test_requested = Signal()
 
-    def __init__(self, theme: Theme, requests: str, results: str) -> None:
+    def __init__(self, theme: Theme, requests: str, results: str, *, is_demo: bool = False) -> None:
         super().__init__(theme, 24)
         words = self.tr(
             "The clinic software writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the "
@@ -35,6 +35,8 @@ class PracticeSystemCard(Card):
         self.test_button = Button(theme, self.tr("Test the folders"), height_px=40)
         self.test_text = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self.add_heading(self.tr("Clinic software (GDT)"), words)
+        if is_demo:
+            self.body.addWidget(Text(theme, self.tr("The demo watches no folder."), 14, SEMIBOLD, "warn", wrap=True))
         titles = (self.tr("Patients from the clinic software"), self.tr("Results for the clinic software"))
         for number, title in enumerate(titles):
             row = row_layout(self.folder_buttons[number], self.clear_buttons[number], STRETCH, gap=8)

@@ -18,7 +18,10 @@ class TherapistController(QObject):
     """The list in the store, and the initials of who works now, which the top bar and the lock ask for."""
 
     def __init__(self, context: ScreenContext, initials: Callable[[], str], choose: Callable[[str], None]) -> None:
-        """Put the initials of earlier settings into the list; ``initials`` returns who works, ``choose`` saves it."""
+        """Put the initials of earlier settings into an empty list; a therapist removed elsewhere is chosen no more.
+
+        ``initials`` returns who works, ``choose`` saves it.
+        """
         super().__init__(context.window)
         self._context, self._initials, self._choose = context, initials, choose
         self.card = TherapistCard(context.theme)
@@ -27,8 +30,11 @@ class TherapistController(QObject):
         self._button.menu().aboutToShow.connect(self._fill_menu)
         self._shown: Sequence[Therapist] = ()
         with suppress(CarpusFault):
-            if initials() and initials() not in [one.initials for one in read_therapists(context.library.store)]:
+            listed = [one.initials for one in read_therapists(context.library.store)]
+            if initials() and not listed:
                 save_therapists(context.library.store, [Therapist(initials())])
+            elif initials() and initials() not in listed:
+                choose("")
         context.navigator.screen_changed.connect(lambda name: self._show_list() if name == "settings" else None)
         context.window.top_bar.show_therapist(initials())
 

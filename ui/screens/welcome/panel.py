@@ -99,6 +99,7 @@ class WelcomePanel(Card):
             self._rows.addWidget(row)
         self._show_rows()
         wanting = sum(check.state != "good" for check in checks)
+        self.purpose.setVisible(not wanting)  # what is to be done has the room
         if not wanting:
             words = self.tr("This computer has everything that Carpus needs.")
         elif wanting == 1:
