@@ -167,10 +167,14 @@ class LockSettings:
 
 @dataclass(frozen=True, slots=True)
 class PracticeSystemSettings:
-    """Folders of GDT files: ``requests`` with patients to measure, ``results`` that go back; empty for none."""
+    """Folders of GDT files: ``requests`` with patients to measure, ``results`` that go back; empty for none.
+
+    ``fhir`` writes the results as a FHIR R4 bundle too.
+    """
 
     requests: str = ""
     results: str = ""
+    fhir: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -146,6 +146,9 @@ class PracticeSystemController(QObject):
 
     def _send(self, report: SessionReport) -> None:
         """Write the report and its values into the folder of results."""
+        from carpus.core.formats import fhir
+        from carpus.core.formats.export_item import ExportItem
+        from carpus.core.formats.output_files import write_new_json
         from carpus.ui.report.pdf import report_pdf, save_pdf
         from carpus.ui.screens.report.screen import default_file_name
 
@@ -165,6 +168,8 @@ class PracticeSystemController(QObject):
         )
         findings = [heading, *(words.translate(plain) for words in ranges)]
 
+        library, writes_fhir = self._controller.context.library, self._folders.fhir
+
         def work() -> str:
             target = folder / name
             if target.exists():  # sent before, and this report may say something else
@@ -172,6 +177,10 @@ class PracticeSystemController(QObject):
             _share_file(save_pdf(target, content))
             record = gdt.format_result(request, report.results.when, tests, findings=findings, report=target)
             _share_file(gdt.write_result(folder, request, record))
+            if writes_fhir:
+                item = ExportItem(library.session(results.session_id), results, target.stem, {})
+                bundle = fhir.build_bundle(item, content, number)
+                _share_file(write_new_json(target.with_suffix(".fhir.json"), bundle))
             return str(target)
 
         def show_failure(fault: Exception) -> None:
@@ -184,10 +193,8 @@ class PracticeSystemController(QObject):
     def _connect_settings(self) -> None:
         chosen = self._folders
         context = self._controller.context
-        card = PracticeSystemCard(context.theme, chosen.requests, chosen.results, is_demo=context.is_demo)
-        card.changed.connect(
-            lambda requests, results: self._preferences.save(practice_system=PracticeSystemSettings(requests, results))
-        )
+        card = PracticeSystemCard(context.theme, chosen.requests, chosen.results, chosen.fhir, is_demo=context.is_demo)
+        card.changed.connect(lambda *now: self._preferences.save(practice_system=PracticeSystemSettings(*now)))
         card.test_requested.connect(lambda: self._test(card))
         self._preferences.screen.add_cards("report", card)
 

@@ -42,17 +42,21 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
     return [write_new_json(folder / f"{take.name}.fhir.json", build_bundle(take, pdf))]
 
 
-def build_bundle(take: ExportItem, pdf: bytes = b"") -> dict[str, Any]:
+def build_bundle(take: ExportItem, pdf: bytes = b"", record_number: str = "") -> dict[str, Any]:
     """Return a Bundle of a session: Patient, Device, BodyStructures, Observations, DiagnosticReport.
 
-    The patient is the pseudonym of the session file, which knows no other name. ``pdf`` is the printed report.
+    The patient is the pseudonym of the session file, which knows no other name, and the ``record_number`` of a practice
+    system that asked. ``pdf`` is the printed report.
     """
     results, header = take.results, take.session.header
     when = results.when.astimezone().isoformat(timespec="seconds")
-    patient = {
+    patient: dict[str, Any] = {
         "resourceType": "Patient",
         "identifier": [{"use": "secondary", "type": {"text": "Pseudonym"}, "value": header.subject_id or "unknown"}],
     }
+    if record_number:
+        known = {"use": "usual", "type": {"text": "Record number"}, "value": record_number}
+        patient["identifier"] = [known, *patient["identifier"]]
     device = {
         "resourceType": "Device",
         "deviceName": [{"name": "Carpus", "type": "user-friendly-name"}],

@@ -9261,6 +9261,10 @@ von oben</translation>
         <source>The demo watches no folder.</source>
         <translation>Die Demo überwacht keinen Ordner.</translation>
     </message>
+    <message>
+        <source>Write results as FHIR R4 (JSON) too</source>
+        <translation>Ergebnisse auch als FHIR R4 (JSON) schreiben</translation>
+    </message>
 </context>
 <context>
     <name>PreviousPhoto</name>

@@ -9261,6 +9261,10 @@ dall’alto</translation>
         <source>The demo watches no folder.</source>
         <translation>La demo non sorveglia alcuna cartella.</translation>
     </message>
+    <message>
+        <source>Write results as FHIR R4 (JSON) too</source>
+        <translation>Scrivere i risultati anche come FHIR R4 (JSON)</translation>
+    </message>
 </context>
 <context>
     <name>PreviousPhoto</name>

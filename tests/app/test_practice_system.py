@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import os
 from collections.abc import Callable
 from datetime import date
@@ -23,7 +25,7 @@ Open = Callable[..., Desktop]
 @pytest.fixture
 def folders(tmp_path: Path) -> PracticeSystemSettings:
     """Both folders of the exchange."""
-    chosen = PracticeSystemSettings(str(tmp_path / "in"), str(tmp_path / "out"))
+    chosen = PracticeSystemSettings(str(tmp_path / "in"), str(tmp_path / "out"), fhir=True)
     for folder in (chosen.requests, chosen.results):
         Path(folder).mkdir()
     return chosen
@@ -160,5 +162,11 @@ def test_report_sent_writes_pdf_and_values(
     assert Path(fields["6305"]).read_bytes().startswith(b"%PDF")
     assert Path(fields["6305"]).parent == out
     qtbot.waitUntil(screen.send_button.isEnabled, timeout=30_000)
+    bundle = json.loads(Path(fields["6305"]).with_suffix(".fhir.json").read_text("utf-8"))
+    resources = {entry["resource"]["resourceType"]: entry["resource"] for entry in bundle["entry"]}
+    assert resources["Patient"]["identifier"][0]["value"] == "12345"
+    assert "Mustermann" not in json.dumps(bundle)
+    (pdf,) = resources["DiagnosticReport"]["presentedForm"]
+    assert base64.b64decode(pdf["data"]) == Path(fields["6305"]).read_bytes()
     assert not controller.messages.is_busy
     assert controller.context.recent_locations.folder("reports") != str(out), "what is saved next is not sent"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtWidgets import QCheckBox, QFileDialog
 
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
@@ -15,13 +15,13 @@ from carpus.ui.kit.theme import Theme
 class PracticeSystemCard(Card):
     """Folders for GDT files of patients and of results.
 
-    Signals: ``changed`` with both folders; ``test_requested``.
+    Signals: ``changed`` with both folders and whether results are written as FHIR too; ``test_requested``.
     """
 
-    changed = Signal(str, str)
+    changed = Signal(str, str, bool)
     test_requested = Signal()
 
-    def __init__(self, theme: Theme, requests: str, results: str, *, is_demo: bool = False) -> None:
+    def __init__(self, theme: Theme, requests: str, results: str, fhir: bool, *, is_demo: bool = False) -> None:
         super().__init__(theme, 24)
         words = self.tr(
             "The clinic software writes a patient as a GDT 2.1 file into the first folder, and Carpus opens the "
@@ -45,7 +45,10 @@ class PracticeSystemCard(Card):
             self.clear_buttons[number].setAccessibleName(f"{title}: {self.tr('Turn off')}")
             self.folder_buttons[number].clicked.connect(lambda _=False, number=number: self._choose(number))
             self.clear_buttons[number].clicked.connect(lambda _=False, number=number: self._set(number, ""))
-        fill(self.body, 8, row_layout(self.test_button, (self.test_text, 1), gap=16))
+        self.fhir_check = QCheckBox(self.tr("Write results as FHIR R4 (JSON) too"))
+        self.fhir_check.setChecked(fhir)
+        self.fhir_check.toggled.connect(self._emit_changed)
+        fill(self.body, self.fhir_check, 8, row_layout(self.test_button, (self.test_text, 1), gap=16))
         self.test_button.clicked.connect(self.test_requested)
         self._show()
 
@@ -61,11 +64,15 @@ class PracticeSystemCard(Card):
     def _set(self, number: int, folder: str) -> None:
         self._folders[number] = folder
         self._show()
-        self.changed.emit(*self._folders)
+        self._emit_changed()
+
+    def _emit_changed(self) -> None:
+        self.changed.emit(*self._folders, self.fhir_check.isChecked())
 
     def _show(self) -> None:
         for folder, text, clear in zip(self._folders, self._texts, self.clear_buttons, strict=True):
             text.setText(folder or self.tr("No folder chosen"))
             clear.setVisible(bool(folder))
+        self.fhir_check.setEnabled(bool(self._folders[1]))
         self.test_button.setEnabled(any(self._folders))
         self.test_text.setText("")
