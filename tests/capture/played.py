@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
 from carpus.core.capture.devices.capture_child import CaptureChannel, DeviceOpened
 from carpus.core.capture.devices.capture_process import CaptureProcess
+from carpus.core.capture.files import realsense_recording
 from carpus.core.capture.files.realsense_recording import SLOTS, RealSenseRecording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
@@ -45,5 +47,9 @@ class PlayedSource(RealSenseRecording):
         assert self._process is not None
         return self._process.pid
 
-    def _start_process(self) -> CaptureProcess:
-        return CaptureProcess(serve, self._count, "stand-in", WIDTH * HEIGHT * 3, SLOTS)
+    def _open(self) -> DeviceOpened | None:
+        def start(*_: object) -> CaptureProcess:
+            return CaptureProcess(serve, self._count, "stand-in", WIDTH * HEIGHT * 3, SLOTS)
+
+        with mock.patch.object(realsense_recording, "CaptureProcess", start):
+            return super()._open()
