@@ -6291,11 +6291,11 @@ cm</translation>
     </message>
     <message>
         <source>Thumb contact occluded</source>
-        <translation>Kontakt verdeckt</translation>
+        <translation>Daumenkontakt verdeckt</translation>
     </message>
     <message>
         <source>Touched {met} of {all} fingertips</source>
-        <translation>{met} von {all} berührt</translation>
+        <translation>{met} von {all} Fingerspitzen berührt</translation>
     </message>
     <message>
         <source>total arcs in the same period</source>
@@ -6307,7 +6307,7 @@ cm</translation>
     </message>
     <message>
         <source>{weeks} before this session</source>
-        <translation>{weeks} zuvor</translation>
+        <translation>{weeks} vor dieser Sitzung</translation>
     </message>
     <message>
         <source>{difference} since first session</source>
@@ -6315,7 +6315,7 @@ cm</translation>
     </message>
     <message>
         <source>Start Carpus from a desktop session. The commands for files work without a screen.</source>
-        <translation>Starten Sie das Fenster auf einem Desktop. Die Befehle für Dateien funktionieren ohne Bildschirm.</translation>
+        <translation>Starten Sie Carpus auf einem Desktop. Die Befehle für Dateien funktionieren ohne Bildschirm.</translation>
     </message>
     <message>
         <source>hand is {json}, but right or left is expected</source>
@@ -6323,31 +6323,31 @@ cm</translation>
     </message>
     <message>
         <source>side of the wedge with one marker</source>
-        <translation>Keilseite mit einem Marker hier</translation>
+        <translation>Keilseite mit einem Marker</translation>
     </message>
     <message>
         <source>session and reference overlap by less than {least_overlap_s} s, or nothing moves</source>
-        <translation>weniger als {least_overlap_s} s Überschneidung, oder keine Bewegung</translation>
+        <translation>Sitzung und Referenz überschneiden sich um weniger als {least_overlap_s} s, oder es gibt keine Bewegung</translation>
     </message>
     <message>
         <source>line {number} names a file outside the folder: {content}</source>
-        <translation>Zeile {number} führt aus dem Ordner hinaus: {content}</translation>
+        <translation>Zeile {number} nennt eine Datei außerhalb des Ordners: {content}</translation>
     </message>
     <message>
         <source>straight_fingers must be five values, true or false, from thumb to little finger</source>
-        <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
+        <translation>straight_fingers muss aus fünf Werten true oder false bestehen, vom Daumen bis zum Kleinfinger</translation>
     </message>
     <message>
         <source>the best match of the curves is only {match}. Check that they show the same movement</source>
-        <translation>die Kurven stimmen höchstens zu {match} überein. Prüfen Sie, ob es dieselbe Bewegung ist</translation>
+        <translation>die beste Übereinstimmung der Kurven ist nur {match}. Prüfen Sie, ob sie dieselbe Bewegung zeigen</translation>
     </message>
     <message>
         <source>session and reference do not overlap in time</source>
-        <translation>die beiden überschneiden sich zeitlich nicht</translation>
+        <translation>Sitzung und Referenz überschneiden sich zeitlich nicht</translation>
     </message>
     <message>
         <source>side of the wedge with two markers</source>
-        <translation>Keilseite mit zwei Markern hier</translation>
+        <translation>Keilseite mit zwei Markern</translation>
     </message>
     <message>
         <source>{folder}: cannot write to {there}</source>
@@ -6355,7 +6355,7 @@ cm</translation>
     </message>
     <message>
         <source>{name} is {json}, but two pixel coordinates are expected</source>
-        <translation>{name} ist {json}, erwartet sind zwei Pixel</translation>
+        <translation>{name} ist {json}, erwartet sind zwei Pixelkoordinaten</translation>
     </message>
     <message>
         <source>Analysing…</source>
@@ -6367,7 +6367,7 @@ cm</translation>
     </message>
     <message>
         <source>the markers of session and reference are {apart} mm apart (expected: up to {most} mm). They may be other markers or another hand, or the markers may jump</source>
-        <translation>die Marker der beiden liegen {apart} mm auseinander, zu erwarten sind bis zu {most} mm: andere Marker, eine andere Hand oder Sprünge</translation>
+        <translation>die Marker von Sitzung und Referenz liegen {apart} mm auseinander (erwartet: bis zu {most} mm). Vielleicht sind es andere Marker oder eine andere Hand, oder die Marker springen</translation>
     </message>
     <message>
         <source>Send the patient again from the clinic software, or choose the patient in Carpus.</source>
@@ -6383,11 +6383,11 @@ cm</translation>
     </message>
     <message>
         <source>The cup may occlude the thumb. The results show for how long.</source>
-        <translation>Hinter dem Becher kann der Daumen verdeckt sein. Die Ergebnisse zeigen, wie lange.</translation>
+        <translation>Der Becher kann den Daumen verdecken. Die Ergebnisse zeigen, wie lange.</translation>
     </message>
     <message>
         <source>Any movement of the forearm is included in the angle.</source>
-        <translation>Bewegungen des Unterarms verändern den Winkel.</translation>
+        <translation>Jede Bewegung des Unterarms verändert den Winkel.</translation>
     </message>
     <message>
         <source>Status</source>
@@ -6489,11 +6489,11 @@ cm</translation>
     </message>
     <message>
         <source>the last 14 backups, plus one per month for 2 years</source>
-        <translation>die letzten 14, dazu 2 Jahre lang eine pro Monat</translation>
+        <translation>die letzten 14 Sicherungen, dazu 2 Jahre lang eine pro Monat</translation>
     </message>
     <message>
         <source>Automatic backup</source>
-        <translation>Automatische Sicherung</translation>
+        <translation>Täglich</translation>
     </message>
 </context>
 <context>
@@ -6681,11 +6681,11 @@ cm</translation>
     </message>
     <message>
         <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again if the camera was knocked or is out of tolerance.</source>
-        <translation>Die Kalibrierung dauert fünf Minuten. Sie vermisst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut nach einem Stoß oder wenn die Prüfkarte es verlangt.</translation>
+        <translation>Die Kalibrierung dauert fünf Minuten. Sie vermisst das Objektiv, den Tiefenfehler und die Ausrichtung von Tiefe und Farbe. Führen Sie sie einmal je Kamera durch, und erneut, wenn die Kamera angestoßen wurde oder außerhalb der Toleranz ist.</translation>
     </message>
     <message>
         <source>Print at 100 % (“actual size”) on plain paper. Glue the print flat onto something stiff, such as glass or thick cardboard. Then measure the printed ruler.</source>
-        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier. Kleben Sie es flach auf etwas Steifes, etwa Glas oder eine dicke Platte. Messen Sie dann das gedruckte Lineal.</translation>
+        <translation>Drucken Sie mit 100 % („Originalgröße“) auf normales Papier. Kleben Sie den Ausdruck flach auf etwas Steifes, etwa Glas oder dicken Karton. Messen Sie dann das gedruckte Lineal.</translation>
     </message>
 </context>
 <context>
@@ -6750,7 +6750,7 @@ cm</translation>
     </message>
     <message>
         <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether the camera is still within tolerance.</source>
-        <translation>Mit einer gedruckten Tafel wird die Kamera kalibriert. Eine gedruckte Karte prüft in 30 Sekunden, ob sie noch innerhalb der Toleranz misst.</translation>
+        <translation>Mit einer gedruckten Tafel wird die Kamera kalibriert. Eine gedruckte Karte prüft in 30 Sekunden, ob die Kamera noch innerhalb der Toleranz misst.</translation>
     </message>
 </context>
 <context>
@@ -6899,7 +6899,7 @@ cm</translation>
     </message>
     <message>
         <source>A simulated hand does the exercise, so that you can try Carpus. The session is marked as simulated.</source>
-        <translation>Zum Ausprobieren führt eine simulierte Hand die Übung aus. Sie ist als simuliert gekennzeichnet.</translation>
+        <translation>Zum Ausprobieren führt eine simulierte Hand die Übung aus. Die Sitzung ist als simuliert gekennzeichnet.</translation>
     </message>
 </context>
 <context>
@@ -8058,7 +8058,7 @@ von oben</translation>
     </message>
     <message>
         <source>Speeds</source>
-        <translation>Geschwindigkeiten</translation>
+        <translation>Geschwindigkeit</translation>
     </message>
     <message>
         <source>Preparing the simulated hand</source>
@@ -8113,7 +8113,7 @@ von oben</translation>
     </message>
     <message>
         <source>lock now</source>
-        <translation>sperrt sofort</translation>
+        <translation>jetzt sperren</translation>
     </message>
 </context>
 <context>
@@ -8245,7 +8245,7 @@ von oben</translation>
     </message>
     <message>
         <source>Extension: − is a deficit, + is hyperextension. Values in italics were measured by Carpus on this day ({sign} = minimum) and are not saved here. Type over them to enter goniometer values.</source>
-        <translation>Extension: − Streckdefizit, + Überstreckung. Getönt und kursiv: von Carpus an diesem Tag gemessen ({sign} = Mindestwert), wird hier nicht gespeichert; für einen Goniometerwert überschreiben. FKHA: Fingerkuppen-Hohlhand-Abstand.</translation>
+        <translation>Extension: − ist ein Streckdefizit, + eine Überstreckung. Kursive Werte hat Carpus an diesem Tag gemessen ({sign} = Mindestwert); sie werden hier nicht gespeichert. Zum Eintragen von Goniometerwerten überschreiben. FKHA: Fingerkuppen-Hohlhand-Abstand.</translation>
     </message>
 </context>
 <context>
@@ -8343,11 +8343,11 @@ von oben</translation>
     </message>
     <message>
         <source>Proposed from the recording of {day}: at least {score}</source>
-        <translation>Vorschlag, Aufnahme vom {day}: mindestens {score}</translation>
+        <translation>Vorschlag aus der Aufnahme vom {day}: mindestens {score}</translation>
     </message>
     <message>
         <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
-        <translation>Griffkraft nach Alter und Geschlecht: {mean} ± {sd} kg ({source}, Smedley-Dynamometer).</translation>
+        <translation>Referenz der Griffkraft für Alter und Geschlecht: {mean} ± {sd} kg ({source}, Smedley-Dynamometer).</translation>
     </message>
 </context>
 <context>
@@ -8549,7 +8549,7 @@ von oben</translation>
     </message>
     <message>
         <source>mean {value}</source>
-        <translation>Mittel {value}</translation>
+        <translation>Ø {value}</translation>
     </message>
     <message>
         <source>or {count} answers, {least}–{most}</source>
@@ -8565,11 +8565,11 @@ von oben</translation>
     </message>
     <message>
         <source>Enter the answers of the paper form in order, with - for no answer. Only the score is saved.</source>
-        <translation>Antworten des Papierbogens der Reihe nach, - für keine. Nur die Punktzahl wird gespeichert.</translation>
+        <translation>Antworten des Papierbogens der Reihe nach eingeben, „-“ für keine Antwort. Gespeichert wird nur die Punktzahl.</translation>
     </message>
     <message>
         <source>not a valid answer</source>
-        <translation>keine Antwort</translation>
+        <translation>keine gültige Antwort</translation>
     </message>
 </context>
 <context>
@@ -9570,7 +9570,7 @@ von oben</translation>
     </message>
     <message>
         <source>completed later</source>
-        <translation>später beendet</translation>
+        <translation>später abgeschlossen</translation>
     </message>
 </context>
 <context>
@@ -10266,7 +10266,7 @@ von oben</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each is saved as its own session.</source>
-        <translation>Übungen, die mit denselben Markern nacheinander ausgeführt werden. Jede wird zu einer eigenen Sitzung.</translation>
+        <translation>Übungen, die mit denselben Markern nacheinander ausgeführt werden. Jede wird als eigene Sitzung gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -10460,7 +10460,7 @@ von oben</translation>
     </message>
     <message>
         <source>As published: deviation first</source>
-        <translation>Wie in den Veröffentlichungen: Radial-/Ulnarduktion zuerst</translation>
+        <translation>Wie veröffentlicht: Radial-/Ulnarduktion zuerst</translation>
     </message>
     <message>
         <source>In the demo, settings apply until it is closed.</source>
@@ -10472,7 +10472,7 @@ von oben</translation>
     </message>
     <message>
         <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
-        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die der Veröffentlichungen. Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
+        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die veröffentlichte Reihenfolge. Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
     </message>
 </context>
 <context>

@@ -1305,7 +1305,7 @@
     </message>
     <message>
         <source>Measurement error ±{gap}{limit}</source>
-        <translation>Errore di misura ±{gap}{limit}</translation>
+        <translation>Err. di misura ±{gap}{limit}</translation>
     </message>
     <message>
         <source>Goal {angle}</source>
@@ -6291,11 +6291,11 @@ cm</translation>
     </message>
     <message>
         <source>Thumb contact occluded</source>
-        <translation>Contatto nascosto</translation>
+        <translation>Contatto del pollice nascosto</translation>
     </message>
     <message>
         <source>Touched {met} of {all} fingertips</source>
-        <translation>Toccate {met} su {all}</translation>
+        <translation>Toccati {met} polpastrelli su {all}</translation>
     </message>
     <message>
         <source>total arcs in the same period</source>
@@ -6307,7 +6307,7 @@ cm</translation>
     </message>
     <message>
         <source>{weeks} before this session</source>
-        <translation>{weeks} prima</translation>
+        <translation>{weeks} prima di questa seduta</translation>
     </message>
     <message>
         <source>{difference} since first session</source>
@@ -6315,7 +6315,7 @@ cm</translation>
     </message>
     <message>
         <source>Start Carpus from a desktop session. The commands for files work without a screen.</source>
-        <translation>Avviare la finestra da un desktop. I comandi per i file funzionano senza schermo.</translation>
+        <translation>Avviare Carpus da un desktop. I comandi per i file funzionano senza schermo.</translation>
     </message>
     <message>
         <source>hand is {json}, but right or left is expected</source>
@@ -6323,31 +6323,31 @@ cm</translation>
     </message>
     <message>
         <source>side of the wedge with one marker</source>
-        <translation>qui il lato del cuneo con un marcatore</translation>
+        <translation>lato del cuneo con un marcatore</translation>
     </message>
     <message>
         <source>session and reference overlap by less than {least_overlap_s} s, or nothing moves</source>
-        <translation>meno di {least_overlap_s} s di sovrapposizione, o nessun movimento</translation>
+        <translation>seduta e riferimento si sovrappongono per meno di {least_overlap_s} s, o non c’è movimento</translation>
     </message>
     <message>
         <source>line {number} names a file outside the folder: {content}</source>
-        <translation>la riga {number} porta fuori dalla cartella: {content}</translation>
+        <translation>la riga {number} indica un file fuori dalla cartella: {content}</translation>
     </message>
     <message>
         <source>straight_fingers must be five values, true or false, from thumb to little finger</source>
-        <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
+        <translation>straight_fingers deve avere cinque valori, true o false, dal pollice al mignolo</translation>
     </message>
     <message>
         <source>the best match of the curves is only {match}. Check that they show the same movement</source>
-        <translation>la concordanza delle curve è al massimo {match}. Controllare che sia lo stesso movimento</translation>
+        <translation>la migliore concordanza delle curve è solo {match}. Controllare che mostrino lo stesso movimento</translation>
     </message>
     <message>
         <source>session and reference do not overlap in time</source>
-        <translation>le due non si sovrappongono nel tempo</translation>
+        <translation>seduta e riferimento non si sovrappongono nel tempo</translation>
     </message>
     <message>
         <source>side of the wedge with two markers</source>
-        <translation>qui il lato del cuneo con due marcatori</translation>
+        <translation>lato del cuneo con due marcatori</translation>
     </message>
     <message>
         <source>{folder}: cannot write to {there}</source>
@@ -6355,7 +6355,7 @@ cm</translation>
     </message>
     <message>
         <source>{name} is {json}, but two pixel coordinates are expected</source>
-        <translation>{name} è {json}, attesi due pixel</translation>
+        <translation>{name} è {json}, attese due coordinate in pixel</translation>
     </message>
     <message>
         <source>Analysing…</source>
@@ -6367,7 +6367,7 @@ cm</translation>
     </message>
     <message>
         <source>the markers of session and reference are {apart} mm apart (expected: up to {most} mm). They may be other markers or another hand, or the markers may jump</source>
-        <translation>i marcatori dei due distano {apart} mm, attesi al massimo {most} mm: altri marcatori, un’altra mano o salti</translation>
+        <translation>i marcatori di seduta e riferimento distano {apart} mm (attesi: fino a {most} mm). Forse sono altri marcatori o un’altra mano, oppure i marcatori saltano</translation>
     </message>
     <message>
         <source>Send the patient again from the clinic software, or choose the patient in Carpus.</source>
@@ -6383,11 +6383,11 @@ cm</translation>
     </message>
     <message>
         <source>The cup may occlude the thumb. The results show for how long.</source>
-        <translation>Dietro il bicchiere il pollice può essere nascosto. I risultati indicano per quanto tempo.</translation>
+        <translation>Il bicchiere può nascondere il pollice. I risultati indicano per quanto tempo.</translation>
     </message>
     <message>
         <source>Any movement of the forearm is included in the angle.</source>
-        <translation>I movimenti dell’avambraccio alterano l’angolo.</translation>
+        <translation>Ogni movimento dell’avambraccio altera l’angolo.</translation>
     </message>
     <message>
         <source>Status</source>
@@ -6489,11 +6489,11 @@ cm</translation>
     </message>
     <message>
         <source>the last 14 backups, plus one per month for 2 years</source>
-        <translation>le ultime 14, più una al mese per 2 anni</translation>
+        <translation>le ultime 14 copie, più una al mese per 2 anni</translation>
     </message>
     <message>
         <source>Automatic backup</source>
-        <translation>Copia automatica</translation>
+        <translation>Ogni giorno</translation>
     </message>
 </context>
 <context>
@@ -6681,11 +6681,11 @@ cm</translation>
     </message>
     <message>
         <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again if the camera was knocked or is out of tolerance.</source>
-        <translation>La calibrazione richiede cinque minuti. Misura l’obiettivo, l’errore di profondità e l’allineamento fra profondità e colore. Eseguirla una volta per telecamera, e di nuovo dopo un urto o se lo chiede il cartoncino di controllo.</translation>
+        <translation>La calibrazione richiede cinque minuti. Misura l’obiettivo, l’errore di profondità e l’allineamento fra profondità e colore. Eseguirla una volta per telecamera, e di nuovo se la telecamera ha subito un urto o è fuori tolleranza.</translation>
     </message>
     <message>
         <source>Print at 100 % (“actual size”) on plain paper. Glue the print flat onto something stiff, such as glass or thick cardboard. Then measure the printed ruler.</source>
-        <translation>Stampare al 100 % (“dimensioni effettive”) su carta comune. Incollare ben piano su qualcosa di rigido, come vetro o cartone spesso. Poi misurare il righello stampato.</translation>
+        <translation>Stampare al 100 % (“dimensioni effettive”) su carta comune. Incollare il foglio ben piano su qualcosa di rigido, come vetro o cartone spesso. Poi misurare il righello stampato.</translation>
     </message>
 </context>
 <context>
@@ -6750,7 +6750,7 @@ cm</translation>
     </message>
     <message>
         <source>A printed board calibrates the camera. A printed card checks in 30 seconds whether the camera is still within tolerance.</source>
-        <translation>Una tavola stampata calibra la telecamera. Un cartoncino stampato controlla in 30 secondi se misura ancora entro la tolleranza.</translation>
+        <translation>Una tavola stampata calibra la telecamera. Un cartoncino stampato controlla in 30 secondi se la telecamera misura ancora entro la tolleranza.</translation>
     </message>
 </context>
 <context>
@@ -6899,7 +6899,7 @@ cm</translation>
     </message>
     <message>
         <source>A simulated hand does the exercise, so that you can try Carpus. The session is marked as simulated.</source>
-        <translation>Per fare prove, una mano simulata esegue l’esercizio. È segnata come simulata.</translation>
+        <translation>Per provare Carpus, una mano simulata esegue l’esercizio. La seduta è segnata come simulata.</translation>
     </message>
 </context>
 <context>
@@ -8245,7 +8245,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Extension: − is a deficit, + is hyperextension. Values in italics were measured by Carpus on this day ({sign} = minimum) and are not saved here. Type over them to enter goniometer values.</source>
-        <translation>Estensione: − deficit, + iperestensione. Colorato e in corsivo: misurato da Carpus in questo giorno ({sign} = minimo), non viene salvato qui; sovrascrivere per inserire un valore del goniometro.</translation>
+        <translation>Estensione: − è un deficit, + un’iperestensione. I valori in corsivo sono stati misurati da Carpus in questo giorno ({sign} = minimo) e non vengono salvati qui. Sovrascriverli per inserire i valori del goniometro.</translation>
     </message>
 </context>
 <context>
@@ -8343,11 +8343,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Proposed from the recording of {day}: at least {score}</source>
-        <translation>Proposta, registrazione del {day}: almeno {score}</translation>
+        <translation>Proposta dalla registrazione in data {day}: almeno {score}</translation>
     </message>
     <message>
         <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
-        <translation>Forza di presa per età e sesso: {mean} ± {sd} kg ({source}, dinamometro Smedley).</translation>
+        <translation>Forza di presa di riferimento per età e sesso: {mean} ± {sd} kg ({source}, dinamometro Smedley).</translation>
     </message>
 </context>
 <context>
@@ -8565,11 +8565,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Enter the answers of the paper form in order, with - for no answer. Only the score is saved.</source>
-        <translation>Risposte del modulo cartaceo in ordine, - per nessuna. Viene salvato solo il punteggio.</translation>
+        <translation>Inserire in ordine le risposte del modulo cartaceo, “-” per nessuna risposta. Viene salvato solo il punteggio.</translation>
     </message>
     <message>
         <source>not a valid answer</source>
-        <translation>non è una risposta</translation>
+        <translation>risposta non valida</translation>
     </message>
 </context>
 <context>
@@ -9570,7 +9570,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>completed later</source>
-        <translation>terminato più tardi</translation>
+        <translation>completato più tardi</translation>
     </message>
 </context>
 <context>
@@ -10266,7 +10266,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Exercises that run one after the other with the same markers. Each is saved as its own session.</source>
-        <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno diventa una seduta a sé.</translation>
+        <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno viene salvato come seduta a sé.</translation>
     </message>
 </context>
 <context>
@@ -10460,7 +10460,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>As published: deviation first</source>
-        <translation>Come negli articoli: prima la deviazione</translation>
+        <translation>Come pubblicato: prima la deviazione</translation>
     </message>
     <message>
         <source>In the demo, settings apply until it is closed.</source>
@@ -10472,7 +10472,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
-        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono quello degli articoli. Sedute con ordini diversi non si confrontano.</translation>
+        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono l’ordine pubblicato. Sedute con ordini diversi non si confrontano.</translation>
     </message>
 </context>
 <context>
