@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date, datetime
 
-from carpus.core.measures.manual_measurements import BOTH_MODES, FINGER_JOINTS, Mode
+from carpus.core.measures.manual_measurements import BOTH_MODES, FINGER_JOINTS, MEASURES, Mode
 from carpus.core.model.hand.exercises import Exercise
 from carpus.core.model.types import Side
 from carpus.core.results.measure import Measure, negate_measure
@@ -14,25 +14,30 @@ from carpus.core.results.session_results import SessionResults
 CellKey = tuple[str, Mode]
 
 
-def find_measured_cells(sessions: Sequence[SessionResults], side: Side, day: date) -> dict[CellKey, Measure]:
-    """Return what Carpus measured of a hand's joints on a day, extension above zero in hyperextension.
+def find_measured_values(sessions: Sequence[SessionResults], side: Side, day: date) -> dict[CellKey, Measure]:
+    """Return what Carpus measured of a hand's angles on a day, extension above zero in hyperextension.
 
-    Only of joints that the exercise bends and straightens as far as they go. A later session replaces an earlier one.
+    Of joints only those that the exercise bends and straightens as far as they go. A later session replaces an earlier
+    one.
     """
     found: dict[CellKey, Measure] = {}
     for session in _sessions_of_hand(sessions, side):
-        if session.when.date() != day:
-            continue
         for mode, results in zip(BOTH_MODES, (session, session.passive_results()), strict=True):
-            if results is None:
+            if results is None or session.when.date() != day:
                 continue
+            for measure in MEASURES:
+                if measure.kind == "angle" and measure.session_measure is not None:
+                    _add_known(found, (measure.id, mode), results.find(*measure.session_measure))
             for joint in _find_bent_joints(session.exercise):
                 flexion, extension = (results.find(f"{joint}_flexion", end) for end in ("flexion", "extension"))
-                if flexion is not None and flexion.count:
-                    found[f"{joint}_FLEXION", mode] = flexion
-                if extension is not None and extension.count:
-                    found[f"{joint}_EXTENSION", mode] = negate_measure(extension)
+                _add_known(found, (f"{joint}_FLEXION", mode), flexion)
+                _add_known(found, (f"{joint}_EXTENSION", mode), extension and negate_measure(extension))
     return found
+
+
+def _add_known(found: dict[CellKey, Measure], key: CellKey, measure: Measure | None) -> None:
+    if measure is not None and measure.count:
+        found[key] = measure
 
 
 def _find_bent_joints(exercise: Exercise) -> list[str]:

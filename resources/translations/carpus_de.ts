@@ -6409,6 +6409,10 @@ cm</translation>
         <source>up to 54 years</source>
         <translation>bis 54 Jahre</translation>
     </message>
+    <message>
+        <source>fingertip to palm {distance}</source>
+        <translation>Fingerkuppen-Hohlhand-Abstand {distance}</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>

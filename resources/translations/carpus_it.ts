@@ -6409,6 +6409,10 @@ cm</translation>
         <source>up to 54 years</source>
         <translation>fino a 54 anni</translation>
     </message>
+    <message>
+        <source>fingertip to palm {distance}</source>
+        <translation>distanza polpastrello-palmo {distance}</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from datetime import timedelta
+from datetime import date, timedelta
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
@@ -15,7 +15,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.measures.manual_measurements import ManualValue, current_values
+from carpus.core.measures.manual_measurements import ManualValue, Mode, current_values
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.log import read_log
 from carpus.core.records.values import Patient
@@ -29,6 +29,7 @@ from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
 from carpus.ui.screens.progress.flow import write_tables
 from carpus.ui.shell.main_window import MainWindow
+from carpus.ui.words.manual_values import day_words, find_changes, full_name, list_other_values
 from tests.ui.conftest import Show
 from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import NOW, FakeSessions, figures_once, hand_values
@@ -272,6 +273,23 @@ def test_manual_form_saved_values_are_stored_and_logged(
     assert not flow.prompt_before_close(), "nothing is left to be lost"
     assert not told.faults
     assert [entry.action for entry in read_log(library.store) if entry.action != "added"] == ["entered_by_hand"] * 2
+
+
+def test_total_of_a_finger_stands_for_its_joints_in_changes_and_words() -> None:
+    def of_day(day: date, mode: Mode, flexion: float) -> list[ManualValue]:
+        angles = {f"{joint}4_FLEXION": flexion for joint in ("MCP", "PIP", "DIP")}
+        angles |= {f"{joint}4_EXTENSION": -10.0 for joint in ("MCP", "PIP", "DIP")}
+        return [ManualValue(name, mode, "right", day, (angle,)) for name, angle in angles.items()]
+
+    joint_alone = [ManualValue("PIP2_FLEXION", "active", "right", TODAY, (60.0,))]
+    weeks = (TODAY - timedelta(days=14), TODAY)
+    values = current_values([one for k, day in enumerate(weeks) for one in of_day(day, "passive", 60.0 + 10.0 * k)])
+    changed = find_changes([*values, *joint_alone])
+    assert [full_name(key) for key, _ in changed] == ["Ring finger, TPM"]
+    assert list_other_values([*values, *joint_alone], (key for key, _ in changed)) == joint_alone
+    assert day_words([one for one in values if one.day == TODAY]) == (
+        "Ring finger, passive: MCP \N{MINUS SIGN}10/70, PIP \N{MINUS SIGN}10/70, DIP \N{MINUS SIGN}10/70, TPM 180°"
+    )
 
 
 def test_manual_values_in_reports_and_tables_are_marked_as_manual(tmp_path: Path) -> None:

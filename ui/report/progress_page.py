@@ -35,7 +35,14 @@ from carpus.ui.report.page import (
     table,
 )
 from carpus.ui.words.fingers import progress_choices, progress_keys
-from carpus.ui.words.manual_values import change_words, day_words, find_changes, full_name, verdict_words
+from carpus.ui.words.manual_values import (
+    change_words,
+    day_words,
+    find_changes,
+    full_name,
+    list_other_values,
+    verdict_words,
+)
 from carpus.ui.words.progress import (
     change_line,
     comparability_lines,
@@ -190,10 +197,9 @@ def _manual_changes(progress: Progress) -> list[Part]:
 
 
 def _split_manual_values(progress: Progress) -> tuple[list[tuple[MeasureKey, ManualChange]], list[ManualValue]]:
-    """Return all changes, and the values that have no line among those that are shown."""
+    """Return all changes, and the values that have none; pages of their own have those without room."""
     changed = find_changes(progress.manual_measurements)
-    known = {key for key, _ in changed[:MAX_MANUAL_CHANGES]}
-    return changed, [one for one in progress.manual_measurements if one.key not in known]
+    return changed, list_other_values(progress.manual_measurements, (key for key, _ in changed))
 
 
 def _has_manual_pages(progress: Progress) -> bool:

@@ -93,7 +93,8 @@ def _finger_rows(
     heads = [tr("Finger")]
     for name in (tr("MCP"), tr("PIP"), tr("DIP (thumb: IP)")):
         heads += [f"{name}\n{words}" for words in (tr("active"), tr("passive"), MANUAL_SIGN)]
-    heads += [f"TAM\n{tr('active')}", f"TPM\n{tr('passive')}"] if has_totals(results) else []
+    if has_totals(results):
+        heads += [f"TAM\n{tr('active')}", f"TPM\n{tr('passive')}", f"TAM\n{MANUAL_SIGN}"]
     rows = []
     for finger in FINGERS:
         cells = [finger_name(str(finger))]
@@ -103,7 +104,8 @@ def _finger_rows(
             cells += [_joint_cell(one, key) if subject else "" for one in (results, passive)]
             cells.append(_manual_cell(key, manual_values) if subject else "")
         if has_totals(results):
-            cells += [_joint_cell(one, (f"TAM{finger}", "arc")) for one in (results, passive)]
+            total: MeasureKey = (f"TAM{finger}", "arc")
+            cells += [*(_joint_cell(one, total) for one in (results, passive)), _manual_cell(total, manual_values)]
         rows.append(cells)
     return heads, rows
 

@@ -134,8 +134,14 @@ def direction_words(measure: ManualMeasure) -> str:
 
 
 def full_name(key: MeasureKey) -> str:
-    """Return measure and mode, such as ``Wrist, flexion, active``."""
+    """Return measure and mode, such as ``Wrist, flexion, active`` or ``Ring finger, TPM``."""
+    if key[0].startswith("TAM"):
+        return f"{long_finger_name(key[0][-1])}, {_total_name(key[1])}"
     return ", ".join(filter(None, (measure_name(find_manual_measure(key[0])), mode_name(key[1]))))
+
+
+def _total_name(mode: str) -> str:
+    return "TPM" if mode == "passive" else "TAM"
 
 
 def verdict_words(change: ManualChange) -> tuple[str, str]:
@@ -173,7 +179,7 @@ def day_words(values: Sequence[ManualValue]) -> str:
     words = []
     for name, found in by_measure.items():
         manual_measure = find_manual_measure(name)
-        if manual_measure.kind == "finger" and manual_measure.unit == "deg":
+        if manual_measure.kind == "finger":
             continue
         text = ", ".join(
             " ".join(filter(None, (value_words(manual_measure, v.value), mode_name(v.mode), v.location))) for v in found
@@ -186,7 +192,7 @@ def day_words(values: Sequence[ManualValue]) -> str:
 
 
 def _joint_words(finger: int, mode: Mode, values: Mapping[tuple[str, Mode], float]) -> str:
-    """Return ``Ring finger, active: MCP 0/85, PIP −20/90, TAM 225``: extension and flexion; empty without any."""
+    """Return ``Ring finger, active: MCP 0/85, PIP −20/90, TAM 225°``: extension and flexion; empty without any."""
     parts = []
     for joint in FINGER_JOINTS[finger]:
         ends = [values.get((f"{joint}_{end}", mode), math.nan) for end in ("EXTENSION", "FLEXION")]
@@ -194,7 +200,10 @@ def _joint_words(finger: int, mode: Mode, values: Mapping[tuple[str, Mode], floa
             both = "/".join(numbers.format_signed_degrees(end).removesuffix("°") for end in ends)
             parts.append(f"{_joint_name(joint)} {both}")
     if (total := values.get((f"TAM{finger}", mode))) is not None:
-        parts.append(f"{'TAM' if mode == 'active' else 'TPM'} {numbers.format_degrees(total)}")
+        parts.append(f"{_total_name(mode)} {numbers.format_degrees(total)}")
+    if (gap_cm := values.get((f"TIP_TO_PALM{finger}", mode))) is not None:
+        gap = value_words(find_manual_measure(f"TIP_TO_PALM{finger}"), gap_cm)
+        parts.append(tr("fingertip to palm {distance}").format(distance=gap))
     who = f"{long_finger_name(str(finger))}, {mode_name(mode)}"
     return f"{who}: {', '.join(parts)}" if parts else ""
 
@@ -204,16 +213,18 @@ def find_changes(values: Sequence[ManualValue]) -> list[tuple[MeasureKey, Manual
 
     The total of a finger stands for its joints.
     """
-    found = {key: compute_change(value_history(values, key)) for key in sort_keys(values)}
-    totals = {(key[0][-1], *key[1:]) for key, change in found.items() if change and key[0].startswith("TAM")}
-    return [
-        (key, change)
-        for key, change in found.items()
-        if change is not None and (_finger_of_joint(key[0]), *key[1:]) not in totals
-    ]
+    changes = {key: compute_change(value_history(values, key)) for key in sort_keys(values)}
+    found = {key: change for key, change in changes.items() if change is not None}
+    return [(key, change) for key, change in found.items() if _total_key(key) not in found]
 
 
-def _finger_of_joint(measure_id: str) -> str:
-    """Return the number of the finger whose joint is measured, empty for any other measure."""
-    joint = measure_id.partition("_")[0]
-    return joint[-1] if any(joint in joints for joints in FINGER_JOINTS.values()) else ""
+def list_other_values(values: Sequence[ManualValue], shown: Iterable[MeasureKey]) -> list[ManualValue]:
+    """Return the values whose measure, and whose finger's total, is not shown."""
+    keys = set(shown)
+    return [one for one in values if not keys & {one.key, _total_key(one.key)}]
+
+
+def _total_key(key: MeasureKey) -> MeasureKey | None:
+    """Return the key of the total that a finger joint is part of, None for any other measure."""
+    joint = key[0].partition("_")[0]
+    return (f"TAM{joint[-1]}", *key[1:]) if any(joint in joints for joints in FINGER_JOINTS.values()) else None

@@ -328,16 +328,11 @@ class ManualForm(QWidget):
         following.setFocus(Qt.FocusReason.TabFocusReason)
 
     def show_values(
-        self,
-        values: Sequence[ManualValue],
-        side: Side,
-        day: date,
-        carpus_measures: Mapping[str, Measure],
-        measured_cells: Mapping[CellKey, Measure],
+        self, values: Sequence[ManualValue], side: Side, day: date, measured: Mapping[CellKey, Measure]
     ) -> None:
         for name, row in self.rows.items():
-            row.show_values(values, side, day, carpus_measures.get(name))
-        self.fingers.show_values(values, side, day, measured_cells)
+            row.show_values(values, side, day, measured.get((name, "active")))
+        self.fingers.show_values(values, side, day, measured)
 
     def initial_focus(self) -> QWidget:
         return self.input_fields()[0]

@@ -22,7 +22,7 @@ from carpus.core.measures.manual_measurements import (
 )
 from carpus.core.model.types import Side
 from carpus.core.records.values import Patient
-from carpus.core.results.manual_proposals import CellKey, find_measured_cells, propose_kapandji
+from carpus.core.results.manual_proposals import CellKey, find_measured_values, propose_kapandji
 from carpus.core.results.measure import Measure
 from carpus.core.results.norms import GRIP_SOURCE, grip_norm_kg
 from carpus.core.results.session_results import SessionResults
@@ -220,9 +220,7 @@ class ManualMeasurementsScreen(FittedWidget):
         if propose_kapandji(self.record.figures, self.side, self.current_day):
             usual.add(KAPANDJI)
         self.form.set_measures(usual | {one.measure for one in self.record.values} | self._added_measures)
-        self.form.show_values(
-            self._all_values(), self.side, self.current_day, self._carpus_measures(), self._measured_cells()
-        )
+        self.form.show_values(self._all_values(), self.side, self.current_day, self._find_measured_values())
         self._fill_more()
         self._show_proposal()
         day = numbers.format_short_date(self.current_day)
@@ -273,9 +271,9 @@ class ManualMeasurementsScreen(FittedWidget):
         form.set_measures({*form.rows, *([_FINGERS] if form.has_fingers else []), name})
         field: QWidget = form.fingers
         if name == _FINGERS:
-            form.fingers.show_values(values, side, day, self._measured_cells())
+            form.fingers.show_values(values, side, day, self._find_measured_values())
         else:
-            form.rows[name].show_values(values, side, day, self._carpus_measures().get(name))
+            form.rows[name].show_values(values, side, day, self._find_measured_values().get((name, "active")))
             field = form.rows[name].fields[0][1]
         self._fill_more()
         self._show_proposal()
@@ -296,8 +294,8 @@ class ManualMeasurementsScreen(FittedWidget):
             "" if found is None else words.format(day=numbers.format_day_month(found[1]), score=found[0])
         )
 
-    def _measured_cells(self) -> dict[CellKey, Measure]:
-        return find_measured_cells(self.record.figures, self.side, self.current_day)
+    def _find_measured_values(self) -> dict[CellKey, Measure]:
+        return find_measured_values(self.record.figures, self.side, self.current_day)
 
     def _show_current_cell(self) -> None:
         """Scroll to the grid's current cell, which is no widget that the page would follow."""
@@ -306,32 +304,21 @@ class ManualMeasurementsScreen(FittedWidget):
         bottom = grid.viewport().mapTo(self._scroll.widget(), cell.bottomLeft())  # type: ignore[arg-type]
         self._scroll.ensureVisible(bottom.x(), bottom.y(), 0, 2 * cell.height())
 
-    def _carpus_measures(self) -> dict[str, Measure]:
-        """Return Carpus's measures of that day, of the last session that has them."""
-        found: dict[str, Measure] = {}
-        for measure in MEASURES:
-            for _, row in self._find_session_values(measure):
-                if _.date() == self.current_day:
-                    found[measure.id] = row
-        return found
-
-    def _find_session_values(self, measure: ManualMeasure) -> list[tuple[datetime, Measure]]:
+    def _find_session_values(self, measure: ManualMeasure) -> list[tuple[datetime, float]]:
+        """Return when Carpus measured the same, and its mean."""
         if measure.session_measure is None:
             return []
-        out = []
-        for figures in self.record.figures:
-            if figures.side != self.side or figures.is_simulated or figures.is_excluded:
-                continue
-            row = figures.find(*measure.session_measure)
-            if row is not None and row.count:
-                out.append((figures.when, row))
-        return out
+        counted = (
+            one for one in self.record.figures if one.side == self.side and not (one.is_simulated or one.is_excluded)
+        )
+        found = ((one.when, one.find(*measure.session_measure)) for one in counted)
+        return [(when, row.mean) for when, row in found if row is not None and row.count]
 
     def _show_course(self, name: str) -> None:
         measure = find_manual_measure(name)
         side = self.side if measure.is_per_hand else ""
         values = [one for one in current_values(self.record.values) if (one.measure, one.side) == (name, side)]
-        self.chart.show_values(measure, values, [(when, row.mean) for when, row in self._find_session_values(measure)])
+        self.chart.show_values(measure, values, self._find_session_values(measure))
 
     def _fill_changes(self) -> None:
         body, theme = self._changes.body, self._theme

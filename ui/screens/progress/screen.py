@@ -37,7 +37,7 @@ from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.screens.by_hand.change_rows import add_change_rows
 from carpus.ui.words import terms
 from carpus.ui.words.fingers import progress_choices, progress_keys
-from carpus.ui.words.manual_values import day_words, find_changes
+from carpus.ui.words.manual_values import day_words, find_changes, list_other_values
 from carpus.ui.words.progress import (
     change_line,
     comparability_lines,
@@ -269,8 +269,7 @@ class ProgressScreen(FittedWidget):
         body, changed = self._manual_card.body, find_changes(values)
         body.addWidget(Text(theme, self.tr("Manual measurements"), 16, SEMIBOLD))
         add_change_rows(body, theme, changed)
-        known = {key for key, _ in changed}
-        once = [one for one in values if one.key not in known]
+        once = list_other_values(values, (key for key, _ in changed))
         for day in sorted({one.day for one in once}):
             words = f"{numbers.format_day_month(day)}: {day_words([one for one in once if one.day == day])}"
             body.addWidget(Text(theme, words, 14, wrap=True))
