@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
+from functools import lru_cache
 from typing import ClassVar
 
 from PySide6.QtWidgets import QLayout, QVBoxLayout, QWidget
@@ -280,9 +281,10 @@ def _comment_pages(report: SessionReport) -> list[QVBoxLayout]:
     return pages
 
 
-def comment_lines(comment: str) -> list[str]:
+@lru_cache(maxsize=4)  # of each comment two sections ask, and a letter again
+def comment_lines(comment: str) -> tuple[str, ...]:
     """Return the comment broken into lines."""
-    return break_lines(comment, COMMENT_PT, BODY_WIDTH_PT) if comment.strip() else []
+    return tuple(break_lines(comment, COMMENT_PT, BODY_WIDTH_PT)) if comment.strip() else ()
 
 
 def comment_text(lines: Sequence[str]) -> PlainText:
