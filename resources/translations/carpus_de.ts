@@ -2544,14 +2544,6 @@
         <translation>{difference}, über der MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}: within MDC ({limit})</source>
-        <translation>{difference}: innerhalb der MDC ({limit})</translation>
-    </message>
-    <message>
-        <source>{difference}: beyond MDC ({limit})</source>
-        <translation>{difference}: über der MDC ({limit})</translation>
-    </message>
-    <message>
         <source>Another blue spot is close to the {markers}: it may be the marker.</source>
         <translation>{markers}: Dicht daneben liegt eine andere blaue Stelle, die der Marker sein könnte.</translation>
     </message>

@@ -2544,14 +2544,6 @@
         <translation>{difference}, oltre l’MDC ({limit})</translation>
     </message>
     <message>
-        <source>{difference}: within MDC ({limit})</source>
-        <translation>{difference}: entro l’MDC ({limit})</translation>
-    </message>
-    <message>
-        <source>{difference}: beyond MDC ({limit})</source>
-        <translation>{difference}: oltre l’MDC ({limit})</translation>
-    </message>
-    <message>
         <source>Another blue spot is close to the {markers}: it may be the marker.</source>
         <translation>Un altro punto blu è molto vicino a: {markers}. Potrebbe essere il marcatore.</translation>
     </message>

@@ -95,21 +95,11 @@ def change_since_first(verdict: str, change_deg: float) -> str:
 
 
 def short_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
-    """Return ``2° more, within MDC (10°)``, for paper."""
+    """Return ``2° more, within MDC (10°)``."""
     if verdict == "not_judged" or change_deg != change_deg:
         return tr("not assessed") if verdict == "not_judged" else ""
     pattern = (
         tr("{difference}, within MDC ({limit})") if verdict == "no_change" else tr("{difference}, beyond MDC ({limit})")
-    )
-    return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))
-
-
-def long_change_words(verdict: str, change_deg: float, limit_deg: float) -> str:
-    """Return ``2° more: within MDC (10°)``, for tables."""
-    if verdict == "not_judged" or change_deg != change_deg:
-        return ""
-    pattern = (
-        tr("{difference}: within MDC ({limit})") if verdict == "no_change" else tr("{difference}: beyond MDC ({limit})")
     )
     return pattern.format(difference=difference_words(change_deg), limit=numbers.format_degrees(limit_deg))
 

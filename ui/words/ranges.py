@@ -21,7 +21,7 @@ from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.kit.theme import CURVE_TOKENS
 from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.words import terms
-from carpus.ui.words.progress import long_change_words, reason_words, short_change_words
+from carpus.ui.words.progress import reason_words, short_change_words
 
 _UNMEASURED: Mapping[str, Phrase] = {
     "hidden": phrase("not visible enough"),
@@ -192,11 +192,10 @@ def _line_of_range(
         name = terms.arc_name(row.wrist_angle)
     before, beside = (item.find(*row.key) if item else None for item in (previous, other_hand))
     text = ""
-    if change is not None and is_short:
+    if change is not None:
         text = short_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
-    elif change is not None:
-        text = long_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
-        text = text or tr("not assessed: {why}").format(why=reason_words(change.reasons))
+        if change.verdict == "not_judged" and not is_short:
+            text = tr("not assessed: {why}").format(why=reason_words(change.reasons))
     limited = tr("partly occluded") if row.is_lower_bound else ""
     words, verdict = "; ".join(filter(None, (text, limited))), change.verdict if change else ""
     norm = wrist_norm(row.quantity, row.wrist_angle, results.exercise, person)
