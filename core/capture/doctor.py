@@ -365,7 +365,10 @@ def check_clock(camera_s: float, computer_s: float, clock: str) -> Finding:
     text = phrase("camera clock {own_s} s, computer clock {here_s} s", own_s=own_s, here_s=here_s)
     remedy = ""
     if clock == "computer":
-        remedy = phrase("This camera sends no time stamps. Times are those of arrival, so speeds are approximate.")
+        remedy = phrase(
+            "This camera sends no time stamps. Carpus uses the time at which each frame arrives, so "
+            "speeds are approximate."
+        )
     elif abs(camera_s - computer_s) > MAX_CLOCK_DRIFT * computer_s + CLOCK_TOLERANCE_S:
         remedy = phrase("Plug the camera in again. If this persists, times and speeds of this camera are not reliable.")
     return Finding(phrase("Clock"), "warning" if remedy else "good", text, remedy)

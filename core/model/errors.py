@@ -92,7 +92,7 @@ class FrameDamaged(CarpusFault, code="C-104"):
     summary = phrase("A frame of the recording is damaged: {subject} ({detail}).")
     data_safety = _RECORDING_UNCHANGED
     remedy = _COPY_AGAIN
-    support: ClassVar[str] = phrase("“carpus track --leave-out-damaged” continues without it.")
+    support: ClassVar[str] = phrase("“carpus track --leave-out-damaged” continues without the damaged frames.")
 
 
 class InitialFrameDamaged(FrameDamaged, code="C-105"):
@@ -199,7 +199,7 @@ class SchedulerUnreachable(CarpusFault, code="C-003"):
 
 class OutputBusy(CarpusFault, code="C-402"):
     summary = phrase("Another program is writing {subject}.")
-    data_safety = phrase("Carpus did not write to it.")
+    data_safety = phrase("Carpus changed nothing there.")
     remedy = phrase("Wait until the other program has finished, or choose another folder.")
 
 

@@ -161,7 +161,7 @@ class RecordedSession:
         try:
             draft.read()
             if draft.frame_count != len(self._times_s):  # else the journal would go with what is only in it
-                raise OutputNotWritable(self.path.parent, phrase("the data read back differ from the data written"))
+                raise OutputNotWritable(self.path.parent, phrase("the saved data differ from the recorded data"))
             self.path = draft.finish() or self.path
         finally:
             draft.discard()

@@ -220,7 +220,7 @@ class SessionWriter(FileWriter):
             except (OSError, RuntimeError) as cause:
                 raise write_fault(self.path, cause) from cause
             if stored != to_bytes(data):
-                raise OutputNotWritable(self.path.parent, phrase("the data read back differ from the data written"))
+                raise OutputNotWritable(self.path.parent, phrase("the saved data differ from the recorded data"))
             self._digests.setdefault(path, hashlib.sha256()).update(stored)
         if whole_chunks:
             os.fsync(self._descriptor)  # so that the end has little left to do

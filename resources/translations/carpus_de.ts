@@ -1100,10 +1100,6 @@
         <translation>Geschafft!</translation>
     </message>
     <message>
-        <source>There. Hold it.</source>
-        <translation>Geschafft. Halten.</translation>
-    </message>
-    <message>
         <source>As far as is comfortable</source>
         <translation>So weit, wie es angenehm ist</translation>
     </message>
@@ -1720,10 +1716,6 @@
         <translation>Keine aktive Gesamtbeweglichkeit (TAM): Bei keinem Finger waren alle Gelenke zugleich sichtbar.</translation>
     </message>
     <message>
-        <source>It is missing for fingers whose joints were never all visible at once.</source>
-        <translation>Sie fehlt bei Fingern, deren Gelenke nie alle zugleich sichtbar waren.</translation>
-    </message>
-    <message>
         <source>PIP joints</source>
         <translation>PIP-Gelenke</translation>
     </message>
@@ -2336,10 +2328,6 @@
         <translation>Unterarm auf dem Keil, Daumenseite etwas nach oben gedreht, Finger locker.</translation>
     </message>
     <message>
-        <source>Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
-        <translation>Hand auf ihrem Platz an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
-    </message>
-    <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
         <translation>Hand im Blickfeld der Kamera, Handrücken nach oben, Finger gestreckt.</translation>
     </message>
@@ -2440,20 +2428,12 @@
         <translation>Beide Hände betroffen</translation>
     </message>
     <message>
-        <source>Choose the patient in the list and start here. The practice patient is simulated.</source>
-        <translation>Wählen Sie den Patienten in der Liste und beginnen Sie hier. Der Testpatient ist simuliert.</translation>
-    </message>
-    <message>
         <source>Choose the image source, then continue here.</source>
         <translation>Wählen Sie die Bildquelle, dann geht es hier weiter.</translation>
     </message>
     <message>
         <source>Take the image when the hand lies flat and every marker is visible.</source>
         <translation>Das Bild aufnehmen, wenn die Hand flach liegt und alle Marker sichtbar sind.</translation>
-    </message>
-    <message>
-        <source>Every marker has its label and every check is good: start here.</source>
-        <translation>Jeder Marker hat seine Bezeichnung, und alle Prüfungen sind gut: hier beginnen.</translation>
     </message>
     <message>
         <source>The joints are already tracked. The space bar starts the recording.</source>
@@ -2470,10 +2450,6 @@
     <message>
         <source>Make the report of this session here.</source>
         <translation>Erstellen Sie hier den Bericht dieser Sitzung.</translation>
-    </message>
-    <message>
-        <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
-        <translation>Das war eine ganze Sitzung. Der Pfeil oben links führt zurück zu den Patienten.</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -2800,10 +2776,6 @@
         <translation>Carpus neu installieren.</translation>
     </message>
     <message>
-        <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
-        <translation>Sie braucht einen USB-2-Anschluss; manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
-    </message>
-    <message>
         <source>Orbbec driver</source>
         <translation>Orbbec-Treiber</translation>
     </message>
@@ -2886,10 +2858,6 @@
     <message>
         <source>There is one more blue spot on the hand than there are labels.</source>
         <translation>Auf der Hand ist eine blaue Stelle mehr, als es Bezeichnungen gibt.</translation>
-    </message>
-    <message>
-        <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
-        <translation>Diese Kamera sendet keine Zeitstempel. Es gilt die Ankunftszeit der Bilder, daher sind Geschwindigkeiten nur Näherungen.</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3272,10 +3240,6 @@
         <translation>kein Bild in {depth_list}</translation>
     </message>
     <message>
-        <source>no reader for {value}</source>
-        <translation>{value} kann nicht gelesen werden</translation>
-    </message>
-    <message>
         <source>no usable reading</source>
         <translation>keine verwendbare Ablesung</translation>
     </message>
@@ -3442,10 +3406,6 @@
     <message>
         <source>{free} GB free, about {minutes} minutes with video</source>
         <translation>{free} GB frei, etwa {minutes} Minuten mit Video</translation>
-    </message>
-    <message>
-        <source>{movement}: the session has no range in this direction, and the list gives no time</source>
-        <translation>{movement}: Die Sitzung hat in dieser Richtung kein Bewegungsausmaß, und die Liste nennt keine Zeit</translation>
     </message>
     <message>
         <source>{names}</source>
@@ -3764,18 +3724,6 @@
         <translation>Es gibt noch keine Sicherung.</translation>
     </message>
     <message>
-        <source>It contains every session.</source>
-        <translation>Sie enthält alle Sitzungen.</translation>
-    </message>
-    <message>
-        <source>1 session file is missing from it.</source>
-        <translation>1 Sitzungsdatei fehlt darin.</translation>
-    </message>
-    <message>
-        <source>{n} session files are missing from it.</source>
-        <translation>{n} Sitzungsdateien fehlen darin.</translation>
-    </message>
-    <message>
         <source>The last backup is {days} days old.</source>
         <translation>Die letzte Sicherung ist {days} Tage alt.</translation>
     </message>
@@ -3786,10 +3734,6 @@
     <message>
         <source>{when} · 1 session file, {size} GB · verified</source>
         <translation>{when} · 1 Sitzungsdatei, {size} GB · geprüft</translation>
-    </message>
-    <message>
-        <source>It is on the same disk as the data. If that disk fails, both are lost.</source>
-        <translation>Sie liegt auf demselben Datenträger wie die Daten. Fällt er aus, ist beides verloren.</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
@@ -3938,10 +3882,6 @@
     <message>
         <source>Next appointment</source>
         <translation>Nächster Termin</translation>
-    </message>
-    <message>
-        <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
-        <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, machen Sie das nächste Mal weniger und rufen Sie uns an.</translation>
     </message>
     <message>
         <source>The computer is too busy</source>
@@ -4234,10 +4174,6 @@
     <message>
         <source>not a recording journal</source>
         <translation>kein Aufnahmejournal</translation>
-    </message>
-    <message>
-        <source>the data read back differ from the data written</source>
-        <translation>die zurückgelesenen Daten weichen von den geschriebenen ab</translation>
     </message>
     <message>
         <source>no answer</source>
@@ -4760,10 +4696,6 @@
         <translation>enthält mehr als einen Datensatz</translation>
     </message>
     <message>
-        <source>“carpus track --leave-out-damaged” continues without it.</source>
-        <translation>„carpus track --leave-out-damaged“ arbeitet ohne dieses Bild weiter.</translation>
-    </message>
-    <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
         <translation>„carpus track SITZUNG.h5 --output NEU.h5“ wiederholt die Glättung.</translation>
     </message>
@@ -4988,10 +4920,6 @@
         <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
     </message>
     <message>
-        <source>Carpus did not write to it.</source>
-        <translation>Carpus hat nicht hineingeschrieben.</translation>
-    </message>
-    <message>
         <source>Depth registration</source>
         <translation>Ausrichtung von Tiefe und Farbe</translation>
     </message>
@@ -5138,10 +5066,6 @@
     <message>
         <source>The previous folder was {detail}. Nothing was moved.</source>
         <translation>Der bisherige Ordner war {detail}. Es wurde nichts verschoben.</translation>
-    </message>
-    <message>
-        <source>Reinstall it.</source>
-        <translation>Installieren Sie es neu.</translation>
     </message>
     <message>
         <source>no fonts of Carpus</source>
@@ -6405,6 +6329,82 @@ cm</translation>
         <source>fingertip to palm {distance}</source>
         <translation>Fingerkuppen-Hohlhand-Abstand {distance}</translation>
     </message>
+    <message>
+        <source>There. Hold still.</source>
+        <translation>Geschafft. Halten.</translation>
+    </message>
+    <message>
+        <source>TAM is missing for fingers whose joints were never all visible at once.</source>
+        <translation>Sie fehlt bei Fingern, deren Gelenke nie alle zugleich sichtbar waren.</translation>
+    </message>
+    <message>
+        <source>Hand at the edge of the table. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
+        <translation>Hand auf ihrem Platz an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
+    </message>
+    <message>
+        <source>Choose a patient in the list, then start here. The practice patient is simulated.</source>
+        <translation>Wählen Sie den Patienten in der Liste und beginnen Sie hier. Der Testpatient ist simuliert.</translation>
+    </message>
+    <message>
+        <source>Every marker has its label and all checks are good. Start measuring here.</source>
+        <translation>Jeder Marker hat seine Bezeichnung, und alle Prüfungen sind gut: hier beginnen.</translation>
+    </message>
+    <message>
+        <source>You have finished a whole session. The arrow at the top left leads back to the patients.</source>
+        <translation>Das war eine ganze Sitzung. Der Pfeil oben links führt zurück zu den Patienten.</translation>
+    </message>
+    <message>
+        <source>The camera needs a USB 2 port: some USB 3 ports refuse cameras with old firmware.</source>
+        <translation>Sie braucht einen USB-2-Anschluss; manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
+    </message>
+    <message>
+        <source>This camera sends no time stamps. Carpus uses the time at which each frame arrives, so speeds are approximate.</source>
+        <translation>Diese Kamera sendet keine Zeitstempel. Es gilt die Ankunftszeit der Bilder, daher sind Geschwindigkeiten nur Näherungen.</translation>
+    </message>
+    <message>
+        <source>unknown file format {value}</source>
+        <translation>{value} kann nicht gelesen werden</translation>
+    </message>
+    <message>
+        <source>{movement}: the session has no range in this direction, and the list of readings has no time</source>
+        <translation>{movement}: Die Sitzung hat in dieser Richtung kein Bewegungsausmaß, und die Liste nennt keine Zeit</translation>
+    </message>
+    <message>
+        <source>The backup contains every session.</source>
+        <translation>Sie enthält alle Sitzungen.</translation>
+    </message>
+    <message>
+        <source>1 session file is missing from the backup.</source>
+        <translation>1 Sitzungsdatei fehlt darin.</translation>
+    </message>
+    <message>
+        <source>{n} session files are missing from the backup.</source>
+        <translation>{n} Sitzungsdateien fehlen darin.</translation>
+    </message>
+    <message>
+        <source>The backup is on the same disk as the data. If that disk fails, both are lost.</source>
+        <translation>Sie liegt auf demselben Datenträger wie die Daten. Fällt er aus, ist beides verloren.</translation>
+    </message>
+    <message>
+        <source>You may feel a stretch, but no pain. If your hand still hurts an hour later, do less next time and call us.</source>
+        <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, machen Sie das nächste Mal weniger und rufen Sie uns an.</translation>
+    </message>
+    <message>
+        <source>the saved data differ from the recorded data</source>
+        <translation>die zurückgelesenen Daten weichen von den geschriebenen ab</translation>
+    </message>
+    <message>
+        <source>“carpus track --leave-out-damaged” continues without the damaged frames.</source>
+        <translation>„carpus track --leave-out-damaged“ arbeitet ohne dieses Bild weiter.</translation>
+    </message>
+    <message>
+        <source>Carpus changed nothing there.</source>
+        <translation>Carpus hat dort nichts geändert.</translation>
+    </message>
+    <message>
+        <source>Reinstall OpenNI2.</source>
+        <translation>Installieren Sie es neu.</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7246,14 +7246,6 @@ cm</translation>
         <translation>Das Protokoll verzeichnet die Löschung, ohne Namen.</translation>
     </message>
     <message>
-        <source>It cannot be restored.</source>
-        <translation>Eine Wiederherstellung ist nicht möglich.</translation>
-    </message>
-    <message>
-        <source>It cannot be restored, not even from a backup.</source>
-        <translation>Eine Wiederherstellung ist nicht möglich, auch nicht aus einer Sicherung.</translation>
-    </message>
-    <message>
         <source>The retention period set in Settings ({years} years) ends on {day}. You would delete before that date.</source>
         <translation>Die eingestellte Aufbewahrungsfrist ({years} Jahre) endet am {day}. Sie würden vor diesem Datum löschen.</translation>
     </message>
@@ -7276,6 +7268,14 @@ cm</translation>
     <message>
         <source>Check these files outside the patient’s folder yourself ({n}): {path}.</source>
         <translation>Bitte selbst prüfen: Dateien außerhalb des Patientenordners ({n}): {path}.</translation>
+    </message>
+    <message>
+        <source>Deleted data cannot be restored.</source>
+        <translation>Eine Wiederherstellung ist nicht möglich.</translation>
+    </message>
+    <message>
+        <source>Deleted data cannot be restored, not even from a backup.</source>
+        <translation>Eine Wiederherstellung ist nicht möglich, auch nicht aus einer Sicherung.</translation>
     </message>
 </context>
 <context>
@@ -8310,10 +8310,6 @@ von oben</translation>
         <translation>Die Carpus-Sitzung dieses Tages ist simuliert und wird nicht gezeigt.</translation>
     </message>
     <message>
-        <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
-        <translation>Sie werden weder gemittelt noch voneinander abgezogen. Veränderung wird nur innerhalb einer Methode beurteilt.</translation>
-    </message>
-    <message>
         <source>Values are saved with initials and time. Later changes stay visible.</source>
         <translation>Werte werden mit Kürzel und Zeit gespeichert. Spätere Änderungen bleiben sichtbar.</translation>
     </message>
@@ -8344,6 +8340,10 @@ von oben</translation>
     <message>
         <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
         <translation>Referenz der Griffkraft für Alter und Geschlecht: {mean} ± {sd} kg ({source}, Smedley-Dynamometer).</translation>
+    </message>
+    <message>
+        <source>The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only.</source>
+        <translation>Sie werden weder gemittelt noch voneinander abgezogen. Veränderung wird nur innerhalb einer Methode beurteilt.</translation>
     </message>
 </context>
 <context>
@@ -10016,12 +10016,12 @@ von oben</translation>
         <translation>Die anderen Ergebnisse wurden nicht verändert.</translation>
     </message>
     <message>
-        <source>It was saved again as the newest result.</source>
-        <translation>Es wurde noch einmal als neuestes Ergebnis gespeichert.</translation>
-    </message>
-    <message>
         <source>no frame of this session was saved</source>
         <translation>von dieser Sitzung wurde kein Bild gespeichert</translation>
+    </message>
+    <message>
+        <source>The result was saved again as the newest one.</source>
+        <translation>Es wurde noch einmal als neuestes Ergebnis gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -10237,14 +10237,6 @@ von oben</translation>
         <translation>Neue Folge</translation>
     </message>
     <message>
-        <source>The set needs a name.</source>
-        <translation>Die Folge braucht einen Namen.</translation>
-    </message>
-    <message>
-        <source>The set needs an exercise.</source>
-        <translation>Die Folge braucht eine Übung.</translation>
-    </message>
-    <message>
         <source>Another set has this name.</source>
         <translation>Eine andere Folge heißt schon so.</translation>
     </message>
@@ -10263,6 +10255,14 @@ von oben</translation>
     <message>
         <source>Exercises that run one after the other with the same markers. Each is saved as its own session.</source>
         <translation>Übungen, die mit denselben Markern nacheinander ausgeführt werden. Jede wird als eigene Sitzung gespeichert.</translation>
+    </message>
+    <message>
+        <source>Enter a name for the set.</source>
+        <translation>Die Folge braucht einen Namen.</translation>
+    </message>
+    <message>
+        <source>Add an exercise to the set.</source>
+        <translation>Die Folge braucht eine Übung.</translation>
     </message>
 </context>
 <context>

@@ -1100,10 +1100,6 @@
         <translation>Ecco!</translation>
     </message>
     <message>
-        <source>There. Hold it.</source>
-        <translation>Ecco. Resti così.</translation>
-    </message>
-    <message>
         <source>As far as is comfortable</source>
         <translation>Fin dove non dà fastidio</translation>
     </message>
@@ -1720,10 +1716,6 @@
         <translation>Nessun movimento attivo totale (TAM): nessun dito aveva tutte le articolazioni visibili contemporaneamente.</translation>
     </message>
     <message>
-        <source>It is missing for fingers whose joints were never all visible at once.</source>
-        <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili contemporaneamente.</translation>
-    </message>
-    <message>
         <source>PIP joints</source>
         <translation>Articolazioni IFP</translation>
     </message>
@@ -2336,10 +2328,6 @@
         <translation>Avambraccio sul cuneo, lato del pollice un poco in su, dita rilassate.</translation>
     </message>
     <message>
-        <source>Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
-        <translation>Mano al suo posto sul bordo del tavolo. Bicchiere largo 5–7 cm, a 20–30 cm.</translation>
-    </message>
-    <message>
         <source>Hand in view of the camera, back of the hand up, fingers straight.</source>
         <translation>Mano davanti alla telecamera, dorso in su, dita estese.</translation>
     </message>
@@ -2440,20 +2428,12 @@
         <translation>Entrambe le mani colpite</translation>
     </message>
     <message>
-        <source>Choose the patient in the list and start here. The practice patient is simulated.</source>
-        <translation>Scegliere il paziente nell’elenco e iniziare qui. Il paziente di prova è simulato.</translation>
-    </message>
-    <message>
         <source>Choose the image source, then continue here.</source>
         <translation>Scegliere la sorgente delle immagini, poi proseguire qui.</translation>
     </message>
     <message>
         <source>Take the image when the hand lies flat and every marker is visible.</source>
         <translation>Acquisire l’immagine quando la mano è piatta e tutti i marcatori sono visibili.</translation>
-    </message>
-    <message>
-        <source>Every marker has its label and every check is good: start here.</source>
-        <translation>Ogni marcatore ha la sua etichetta e ogni controllo è buono: iniziare qui.</translation>
     </message>
     <message>
         <source>The joints are already tracked. The space bar starts the recording.</source>
@@ -2470,10 +2450,6 @@
     <message>
         <source>Make the report of this session here.</source>
         <translation>Qui si crea la relazione di questa seduta.</translation>
-    </message>
-    <message>
-        <source>That was a whole session. The arrow at the top left leads back to the patients.</source>
-        <translation>Questa era una seduta intera. La freccia in alto a sinistra riporta ai pazienti.</translation>
     </message>
     <message>
         <source>the other hand</source>
@@ -2662,10 +2638,6 @@
     <message>
         <source>Install the packages that contain these libraries.</source>
         <translation>Installare i pacchetti che contengono queste librerie.</translation>
-    </message>
-    <message>
-        <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
-        <translation>Richiede una porta USB 2; alcune porte USB 3 rifiutano telecamere con firmware vecchio.</translation>
     </message>
     <message>
         <source>Keep the hand still and take the first image again.</source>
@@ -2886,10 +2858,6 @@
     <message>
         <source>There is one more blue spot on the hand than there are labels.</source>
         <translation>Sulla mano c’è un punto blu in più rispetto alle etichette.</translation>
-    </message>
-    <message>
-        <source>This camera sends no time stamps. Times are those of arrival, so speeds are approximate.</source>
-        <translation>Questa telecamera non invia l’ora di ripresa dei fotogrammi. Vale l’ora di arrivo, quindi le velocità sono approssimative.</translation>
     </message>
     <message>
         <source>This looks like the other hand.</source>
@@ -3272,10 +3240,6 @@
         <translation>nessun fotogramma in {depth_list}</translation>
     </message>
     <message>
-        <source>no reader for {value}</source>
-        <translation>{value} non si può leggere</translation>
-    </message>
-    <message>
         <source>no usable reading</source>
         <translation>nessuna lettura utilizzabile</translation>
     </message>
@@ -3442,10 +3406,6 @@
     <message>
         <source>{free} GB free, about {minutes} minutes with video</source>
         <translation>{free} GB liberi, circa {minutes} minuti con video</translation>
-    </message>
-    <message>
-        <source>{movement}: the session has no range in this direction, and the list gives no time</source>
-        <translation>{movement}: la seduta non ha escursione in questa direzione, e l’elenco non indica il tempo</translation>
     </message>
     <message>
         <source>{names}</source>
@@ -3764,18 +3724,6 @@
         <translation>Non c’è ancora nessuna copia di sicurezza.</translation>
     </message>
     <message>
-        <source>It contains every session.</source>
-        <translation>Contiene tutte le sedute.</translation>
-    </message>
-    <message>
-        <source>1 session file is missing from it.</source>
-        <translation>Manca 1 file di seduta.</translation>
-    </message>
-    <message>
-        <source>{n} session files are missing from it.</source>
-        <translation>Mancano {n} file di sedute.</translation>
-    </message>
-    <message>
         <source>The last backup is {days} days old.</source>
         <translation>L’ultima copia di sicurezza è di {days} giorni fa.</translation>
     </message>
@@ -3786,10 +3734,6 @@
     <message>
         <source>{when} · 1 session file, {size} GB · verified</source>
         <translation>{when} · 1 file di seduta, {size} GB · verificato</translation>
-    </message>
-    <message>
-        <source>It is on the same disk as the data. If that disk fails, both are lost.</source>
-        <translation>È sullo stesso disco dei dati. Se il disco si guasta, si perdono entrambi.</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
@@ -3938,10 +3882,6 @@
     <message>
         <source>Next appointment</source>
         <translation>Prossimo appuntamento</translation>
-    </message>
-    <message>
-        <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
-        <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta faccia meno e ci chiami.</translation>
     </message>
     <message>
         <source>The computer is too busy</source>
@@ -4234,10 +4174,6 @@
     <message>
         <source>not a recording journal</source>
         <translation>non è un giornale di registrazione</translation>
-    </message>
-    <message>
-        <source>the data read back differ from the data written</source>
-        <translation>i dati riletti sono diversi da quelli scritti</translation>
     </message>
     <message>
         <source>no answer</source>
@@ -4760,10 +4696,6 @@
         <translation>contiene più di un record</translation>
     </message>
     <message>
-        <source>“carpus track --leave-out-damaged” continues without it.</source>
-        <translation>“carpus track --leave-out-damaged” prosegue senza quel fotogramma.</translation>
-    </message>
-    <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
         <translation>“carpus track SEDUTA.h5 --output NUOVA.h5” ripete lo smoothing.</translation>
     </message>
@@ -4988,10 +4920,6 @@
         <translation>Installare i permessi della telecamera nominati sopra e ricollegare la telecamera.</translation>
     </message>
     <message>
-        <source>Carpus did not write to it.</source>
-        <translation>Carpus non vi ha scritto.</translation>
-    </message>
-    <message>
         <source>Depth registration</source>
         <translation>Allineamento profondità-colore</translation>
     </message>
@@ -5138,10 +5066,6 @@
     <message>
         <source>The previous folder was {detail}. Nothing was moved.</source>
         <translation>La cartella precedente era {detail}. Non è stato spostato nulla.</translation>
-    </message>
-    <message>
-        <source>Reinstall it.</source>
-        <translation>Reinstallarlo.</translation>
     </message>
     <message>
         <source>no fonts of Carpus</source>
@@ -6405,6 +6329,82 @@ cm</translation>
         <source>fingertip to palm {distance}</source>
         <translation>distanza polpastrello-palmo {distance}</translation>
     </message>
+    <message>
+        <source>There. Hold still.</source>
+        <translation>Ecco. Resti così.</translation>
+    </message>
+    <message>
+        <source>TAM is missing for fingers whose joints were never all visible at once.</source>
+        <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili contemporaneamente.</translation>
+    </message>
+    <message>
+        <source>Hand at the edge of the table. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
+        <translation>Mano al suo posto sul bordo del tavolo. Bicchiere largo 5–7 cm, a 20–30 cm.</translation>
+    </message>
+    <message>
+        <source>Choose a patient in the list, then start here. The practice patient is simulated.</source>
+        <translation>Scegliere il paziente nell’elenco e iniziare qui. Il paziente di prova è simulato.</translation>
+    </message>
+    <message>
+        <source>Every marker has its label and all checks are good. Start measuring here.</source>
+        <translation>Ogni marcatore ha la sua etichetta e ogni controllo è buono: iniziare qui.</translation>
+    </message>
+    <message>
+        <source>You have finished a whole session. The arrow at the top left leads back to the patients.</source>
+        <translation>Questa era una seduta intera. La freccia in alto a sinistra riporta ai pazienti.</translation>
+    </message>
+    <message>
+        <source>The camera needs a USB 2 port: some USB 3 ports refuse cameras with old firmware.</source>
+        <translation>Richiede una porta USB 2; alcune porte USB 3 rifiutano telecamere con firmware vecchio.</translation>
+    </message>
+    <message>
+        <source>This camera sends no time stamps. Carpus uses the time at which each frame arrives, so speeds are approximate.</source>
+        <translation>Questa telecamera non invia l’ora di ripresa dei fotogrammi. Vale l’ora di arrivo, quindi le velocità sono approssimative.</translation>
+    </message>
+    <message>
+        <source>unknown file format {value}</source>
+        <translation>{value} non si può leggere</translation>
+    </message>
+    <message>
+        <source>{movement}: the session has no range in this direction, and the list of readings has no time</source>
+        <translation>{movement}: la seduta non ha escursione in questa direzione, e l’elenco non indica il tempo</translation>
+    </message>
+    <message>
+        <source>The backup contains every session.</source>
+        <translation>Contiene tutte le sedute.</translation>
+    </message>
+    <message>
+        <source>1 session file is missing from the backup.</source>
+        <translation>Manca 1 file di seduta.</translation>
+    </message>
+    <message>
+        <source>{n} session files are missing from the backup.</source>
+        <translation>Mancano {n} file di sedute.</translation>
+    </message>
+    <message>
+        <source>The backup is on the same disk as the data. If that disk fails, both are lost.</source>
+        <translation>È sullo stesso disco dei dati. Se il disco si guasta, si perdono entrambi.</translation>
+    </message>
+    <message>
+        <source>You may feel a stretch, but no pain. If your hand still hurts an hour later, do less next time and call us.</source>
+        <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta faccia meno e ci chiami.</translation>
+    </message>
+    <message>
+        <source>the saved data differ from the recorded data</source>
+        <translation>i dati riletti sono diversi da quelli scritti</translation>
+    </message>
+    <message>
+        <source>“carpus track --leave-out-damaged” continues without the damaged frames.</source>
+        <translation>“carpus track --leave-out-damaged” prosegue senza quel fotogramma.</translation>
+    </message>
+    <message>
+        <source>Carpus changed nothing there.</source>
+        <translation>Carpus non vi ha cambiato nulla.</translation>
+    </message>
+    <message>
+        <source>Reinstall OpenNI2.</source>
+        <translation>Reinstallarlo.</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>
@@ -7246,14 +7246,6 @@ cm</translation>
         <translation>Il registro annota l’eliminazione, senza nome.</translation>
     </message>
     <message>
-        <source>It cannot be restored.</source>
-        <translation>Non si può ripristinare.</translation>
-    </message>
-    <message>
-        <source>It cannot be restored, not even from a backup.</source>
-        <translation>Non si può ripristinare, nemmeno da una copia di sicurezza.</translation>
-    </message>
-    <message>
         <source>The retention period set in Settings ({years} years) ends on {day}. You would delete before that date.</source>
         <translation>Il periodo di conservazione impostato ({years} anni) termina in data {day}. L’eliminazione avverrebbe prima.</translation>
     </message>
@@ -7276,6 +7268,14 @@ cm</translation>
     <message>
         <source>Check these files outside the patient’s folder yourself ({n}): {path}.</source>
         <translation>Da controllare di persona: file fuori dalla cartella del paziente ({n}): {path}.</translation>
+    </message>
+    <message>
+        <source>Deleted data cannot be restored.</source>
+        <translation>Non si può ripristinare.</translation>
+    </message>
+    <message>
+        <source>Deleted data cannot be restored, not even from a backup.</source>
+        <translation>Non si può ripristinare, nemmeno da una copia di sicurezza.</translation>
     </message>
 </context>
 <context>
@@ -8310,10 +8310,6 @@ dall’alto</translation>
         <translation>La seduta Carpus di questo giorno è simulata e non viene mostrata.</translation>
     </message>
     <message>
-        <source>They are neither averaged nor subtracted. Change is assessed within one method only.</source>
-        <translation>Non se ne calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
-    </message>
-    <message>
         <source>Values are saved with initials and time. Later changes stay visible.</source>
         <translation>I valori si salvano con iniziali e ora. Le modifiche successive restano visibili.</translation>
     </message>
@@ -8344,6 +8340,10 @@ dall’alto</translation>
     <message>
         <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
         <translation>Forza di presa di riferimento per età e sesso: {mean} ± {sd} kg ({source}, dinamometro Smedley).</translation>
+    </message>
+    <message>
+        <source>The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only.</source>
+        <translation>Non se ne calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
     </message>
 </context>
 <context>
@@ -10016,12 +10016,12 @@ dall’alto</translation>
         <translation>Gli altri risultati non sono stati modificati.</translation>
     </message>
     <message>
-        <source>It was saved again as the newest result.</source>
-        <translation>È stato salvato di nuovo come risultato più recente.</translation>
-    </message>
-    <message>
         <source>no frame of this session was saved</source>
         <translation>di questa seduta non è stato salvato alcun fotogramma</translation>
+    </message>
+    <message>
+        <source>The result was saved again as the newest one.</source>
+        <translation>È stato salvato di nuovo come risultato più recente.</translation>
     </message>
 </context>
 <context>
@@ -10237,14 +10237,6 @@ dall’alto</translation>
         <translation>Nuova sequenza</translation>
     </message>
     <message>
-        <source>The set needs a name.</source>
-        <translation>La sequenza ha bisogno di un nome.</translation>
-    </message>
-    <message>
-        <source>The set needs an exercise.</source>
-        <translation>La sequenza ha bisogno di un esercizio.</translation>
-    </message>
-    <message>
         <source>Another set has this name.</source>
         <translation>Un’altra sequenza ha questo nome.</translation>
     </message>
@@ -10263,6 +10255,14 @@ dall’alto</translation>
     <message>
         <source>Exercises that run one after the other with the same markers. Each is saved as its own session.</source>
         <translation>Esercizi che si seguono con gli stessi marcatori. Ognuno viene salvato come seduta a sé.</translation>
+    </message>
+    <message>
+        <source>Enter a name for the set.</source>
+        <translation>La sequenza ha bisogno di un nome.</translation>
+    </message>
+    <message>
+        <source>Add an exercise to the set.</source>
+        <translation>La sequenza ha bisogno di un esercizio.</translation>
     </message>
 </context>
 <context>

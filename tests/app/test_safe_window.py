@@ -229,7 +229,7 @@ def test_back_up_now_reminder_and_restore(
     disk.mkdir()
     backing.start_backup()
     qtbot.waitUntil(lambda: backing.last_backup is not None and backing.card.now_button.isEnabled())
-    assert "It contains every session." in backing.card.headline.text()
+    assert "The backup contains every session." in backing.card.headline.text()
     assert read_log(desktop.library.store)[-1].action == "backed_up"
     erased = linden(desktop)
     desktop.data_protection.erasing._records.erase(desktop.data_protection.erasing._records.plan_patient(erased))

@@ -142,7 +142,7 @@ DEEDS = [
 CORRECTED = "Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand"
 DOCTOR = "Dr Anna Doctor\nVienna"
 OLD_BACKUP = BackupFacts(
-    "warn", "The last backup is 5 days old. 7 session files are missing from it.",
+    "warn", "The last backup is 5 days old. 7 session files are missing from the backup.",
     "15 Nov 2026, 18:04 · 49 session files, 2.04 GB · verified", "Reminder after 3 days.",
     "/media/clinic-disk/carpus-backup", "good", "412 GB free", True,
 )  # fmt: skip

@@ -72,11 +72,11 @@ def test_delete_dialog_states_what_is_deleted_kept_and_too_early(dialog: DeleteD
     assert "before that date" in dialog.consequence_text.text()
     many = replace(ERASED_SESSION, output_files=tuple(Path(str(number)) for number in range(5)))
     dialog.show_plan(many, 10, LAST_BACKUP, date(2036, 10, 10))
-    assert dialog.consequence_text.text() == "It cannot be restored, not even from a backup."
+    assert dialog.consequence_text.text() == "Deleted data cannot be restored, not even from a backup."
     assert "(5): 0, 1, 2, …" in dialog.kept_text.text()
     dialog.show_plan(ERASED_PATIENT, 0, None, TODAY)
     assert "notes (412 MB, files: 31)" in dialog.deleted_text.text()
     assert "real name" in dialog.deleted_text.text()
     assert "All sessions (9)" in dialog.deleted_text.text()
     assert "other sessions" not in dialog.kept_text.text()
-    assert dialog.consequence_text.text() == "It cannot be restored."
+    assert dialog.consequence_text.text() == "Deleted data cannot be restored."

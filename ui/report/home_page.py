@@ -159,7 +159,9 @@ def _page(home: HomeReport) -> QVBoxLayout:
     parts.append((tick, 0, Qt.AlignmentFlag.AlignRight))
     if home.progress is not None:
         parts.append(_progress_box(home, home.progress))
-    pain = tr("It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.")
+    pain = tr(
+        "You may feel a stretch, but no pain. If your hand still hurts an hour later, do less next time and call us."
+    )
     legal = paragraph(terms.LEGAL_SENTENCE, 7.0, REGULAR, "text2")
     return column(
         *parts, STRETCH, _appointment_box(home), column(paragraph(pain, 9.0, SEMIBOLD), legal, gap=3.0), gap=10.0

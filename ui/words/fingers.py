@@ -177,7 +177,7 @@ def total_words(results: SessionResults) -> list[str]:
     if not any(row.count for row in totals):
         words = [tr("No total active motion (TAM): no finger had all joints visible at once.")]
     elif any(not row.count for row in totals):
-        words.append(tr("It is missing for fingers whose joints were never all visible at once."))
+        words.append(tr("TAM is missing for fingers whose joints were never all visible at once."))
     if any(row.is_inferred for row in totals):
         words.append(tr("DIP not measured: TAM uses two thirds of the PIP flexion."))
     norm = total_norm(2, results.exercise)

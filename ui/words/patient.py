@@ -46,7 +46,7 @@ def patient_words(exercise_id: str, scene: GuideScene, audience: Audience) -> Pa
         )
     task = _task_words(exercise_id, scene.direction, child)
     if scene.phase == "there":
-        return PatientWords(task, tr("There!") if child else tr("There. Hold it."))
+        return PatientWords(task, tr("There!") if child else tr("There. Hold still."))
     if scene.is_trial:
         return PatientWords(task, tr("Just try it."))
     if scene.goal_deg != scene.goal_deg:

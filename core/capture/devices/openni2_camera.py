@@ -252,7 +252,7 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
             phrase("Driver"),
             "bad",
             phrase("OpenNI2 stops when its version is queried"),
-            phrase("Reinstall it."),
+            phrase("Reinstall OpenNI2."),
         )
     return Finding(phrase("Driver"), "good", phrase("OpenNI2 {value}", value=version))
 
@@ -264,5 +264,5 @@ KIND = CameraKind(
     find_sensor=lambda _settings, _focal_px: PRIMESENSE,
     check_driver=check_driver,
     needed_mbit=480,
-    port_advice=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
+    port_advice=phrase("The camera needs a USB 2 port: some USB 3 ports refuse cameras with old firmware."),
 )

@@ -189,7 +189,7 @@ EXERCISES = (
         "REACH_GRASP", None, 5, math.nan, False, DIGITS,
         name=phrase("Reach and grasp"),
         instruction=phrase("Reach, take the cup, lift it a little, put it back, return."),
-        position=phrase("Hand at its place at the table edge. Cup 5 to 7 cm wide, 20 to 30 cm away."),
+        position=phrase("Hand at the edge of the table. Cup 5 to 7 cm wide, 20 to 30 cm away."),
         limit=phrase("The cup may occlude the thumb. The results show for how long."),
         adult_cues=(phrase("Take the cup, lift it a little, put it back"),) * 2,
         child_cues=(phrase("Take the cup"),) * 2,

@@ -475,7 +475,7 @@ def _compare_readings(
             measured = _range_end(figures, reading.angle, reading.movement)
             if not math.isfinite(measured):
                 words = phrase(
-                    "{movement}: the session has no range in this direction, and the list gives no time",
+                    "{movement}: the session has no range in this direction, and the list of readings has no time",
                     movement=reading.movement,
                 )
                 excluded_count += 1

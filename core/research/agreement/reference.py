@@ -121,7 +121,7 @@ def read_reference(
         return _from_table(path, columns or {}, radians, hand)
     if suffix == ".h5":
         return _from_session(path, smoothed)
-    raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
+    raise ReferenceUnreadable(path, phrase("unknown file format {value}", value=suffix or "a file without an ending"))
 
 
 def _from_session(path: Path, smoothed: bool) -> Reference:

@@ -324,7 +324,9 @@ class ManualMeasurementsScreen(FittedWidget):
         body, theme = self._changes.body, self._theme
         clear_layout(body)
         body.addWidget(Text(theme, self.tr("Manual and Carpus values are kept separate"), 16, SEMIBOLD, wrap=True))
-        words = self.tr("They are neither averaged nor subtracted. Change is assessed within one method only.")
+        words = self.tr(
+            "The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only."
+        )
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         mine = [one for one in current_values(self.record.values) if one.side in (self.side, "")]
         add_change_rows(body, theme, find_changes(mine))

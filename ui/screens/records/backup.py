@@ -297,9 +297,9 @@ def backup_facts(
     else:
         days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
         age = numbers.format_days_ago(last.made.astimezone(now.tzinfo), now.date())
-        missing = {0: tr("It contains every session."), 1: tr("1 session file is missing from it.")}
+        missing = {0: tr("The backup contains every session."), 1: tr("1 session file is missing from the backup.")}
         rest = missing.get(
-            last.later_sessions, tr("{n} session files are missing from it.").format(n=last.later_sessions)
+            last.later_sessions, tr("{n} session files are missing from the backup.").format(n=last.later_sessions)
         )
         old = is_backup_due(last.made, settings.remind_days, now)
         beside = is_same_disk(Path(last.place), data_folder)
@@ -316,7 +316,7 @@ def backup_facts(
         detail = facts.format(when=numbers.format_date_time(last.made.astimezone()), n=last.sessions, size=size)
         more = tr("Reminder after {days} days.").format(days=settings.remind_days)
         if beside:
-            more = tr("It is on the same disk as the data. If that disk fails, both are lost.")
+            more = tr("The backup is on the same disk as the data. If that disk fails, both are lost.")
     return BackupFacts(
         "warn" if old or beside else "good",
         headline,

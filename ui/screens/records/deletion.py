@@ -293,9 +293,9 @@ class DeleteDialog(Dialog):
         return " ".join(parts)
 
     def _describe_consequences(self, plan: ErasurePlan, years: int, last_backup: datetime | None, today: date) -> str:
-        words = self.tr("It cannot be restored.")
+        words = self.tr("Deleted data cannot be restored.")
         if last_backup is not None:
-            words = self.tr("It cannot be restored, not even from a backup.")
+            words = self.tr("Deleted data cannot be restored, not even from a backup.")
         until = retention_end(max(one.recorded for one in plan.results), years) if plan.results else None
         if until is None or until < today:
             return words

@@ -73,7 +73,7 @@ class ReviewFlow(Flow):
                 text = MessageText(
                     self.tr("This result is used from now on."),
                     self.tr("The other results were not changed."),
-                    self.tr("It was saved again as the newest result."),
+                    self.tr("The result was saved again as the newest one."),
                 )
                 self.context.messages.show_question(text, (Answer(self.tr("Continue"), lambda: None),), icon="good")
 

@@ -201,7 +201,7 @@ class SetDialog(Dialog):
 
     def _validate(self) -> None:
         shown = self._read_set()
-        words = {"name": self.tr("The set needs a name."), "parts": self.tr("The set needs an exercise."), "": ""}
+        words = {"name": self.tr("Enter a name for the set."), "parts": self.tr("Add an exercise to the set."), "": ""}
         taken = any(one.name == shown.name and one.set_id != shown.set_id for one in self._sets_of_protocol())
         problem = words[shown.problem] or (self.tr("Another set has this name.") if taken else "")
         self.problem_label.setText(problem)

@@ -74,16 +74,16 @@ def part_number(bubble: Bubble) -> int:
 def bubble_words(bubble: Bubble) -> str:
     """Return the sentence of a bubble."""
     words: Mapping[Bubble, str] = {
-        "patient": tr("Choose the patient in the list and start here. The practice patient is simulated."),
+        "patient": tr("Choose a patient in the list, then start here. The practice patient is simulated."),
         "camera": tr("Choose the image source, then continue here."),
         "aim": tr("Take the image when the hand lies flat and every marker is visible."),
         "click": tr("Check that every label is on its marker, then press Enter. Click the markers requested above."),
-        "check": tr("Every marker has its label and every check is good: start here."),
+        "check": tr("Every marker has its label and all checks are good. Start measuring here."),
         "record": tr("The joints are already tracked. The space bar starts the recording."),
         "stop": tr("Let the hand move a few times. Then the space bar saves everything."),
         "results": tr("These are the results. The key X excludes the current repetition."),
         "report": tr("Make the report of this session here."),
         "save": tr("Save the report as a PDF. It contains only the pseudonym."),
-        "end": tr("That was a whole session. The arrow at the top left leads back to the patients."),
+        "end": tr("You have finished a whole session. The arrow at the top left leads back to the patients."),
     }
     return words[bubble]
