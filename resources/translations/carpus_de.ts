@@ -8334,16 +8334,16 @@ von oben</translation>
         <translation>Eingetragen von {initials}.</translation>
     </message>
     <message>
-        <source>Proposed from the recording of {day}: at least {score}</source>
-        <translation>Vorschlag aus der Aufnahme vom {day}: mindestens {score}</translation>
-    </message>
-    <message>
         <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
         <translation>Referenz der Griffkraft für Alter und Geschlecht: {mean} ± {sd} kg ({source}, Smedley-Dynamometer).</translation>
     </message>
     <message>
         <source>The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only.</source>
         <translation>Sie werden weder gemittelt noch voneinander abgezogen. Veränderung wird nur innerhalb einer Methode beurteilt.</translation>
+    </message>
+    <message>
+        <source>At least {score}: proposed from the recording of {day}</source>
+        <translation>Mindestens {score}: Vorschlag, Aufnahme vom {day}</translation>
     </message>
 </context>
 <context>

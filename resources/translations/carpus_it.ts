@@ -8334,16 +8334,16 @@ dall’alto</translation>
         <translation>Inseriti da {initials}.</translation>
     </message>
     <message>
-        <source>Proposed from the recording of {day}: at least {score}</source>
-        <translation>Proposta dalla registrazione in data {day}: almeno {score}</translation>
-    </message>
-    <message>
         <source>Reference grip strength for this age and sex: {mean} ± {sd} kg ({source}, Smedley dynamometer).</source>
         <translation>Forza di presa di riferimento per età e sesso: {mean} ± {sd} kg ({source}, dinamometro Smedley).</translation>
     </message>
     <message>
         <source>The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only.</source>
         <translation>Non se ne calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
+    </message>
+    <message>
+        <source>At least {score}: proposed from the recording of {day}</source>
+        <translation>Almeno {score}: proposta, registrazione del {day}</translation>
     </message>
 </context>
 <context>

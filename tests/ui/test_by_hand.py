@@ -201,7 +201,7 @@ def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
     screen.show_record(ManualRecord("Linden 42", seen.side, (), (replace(seen, when=NOW, is_simulated=False),), ""))
     row = screen.form.rows["KAPANDJI"]
     (_, choice), answers = row.fields[0], screen.form.rows["PRWE"].answers_field
-    assert choice.currentText() == "Proposed from the recording of 20 Nov: at least 6"
+    assert choice.currentText() == "At least 6: proposed from the recording of 20 Nov"
     assert not screen.has_unsaved, "a proposal is no value"
     assert not any(cell.is_measured for cell in screen.form.fingers.cells.values()), "no joint was bent to its end"
     choice.setFocus()

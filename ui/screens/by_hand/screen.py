@@ -289,7 +289,7 @@ class ManualMeasurementsScreen(FittedWidget):
         if not isinstance(choice, KapandjiChoice):
             return
         found = propose_kapandji(self.record.figures, self.side, self.current_day)
-        words = self.tr("Proposed from the recording of {day}: at least {score}")
+        words = self.tr("At least {score}: proposed from the recording of {day}")
         choice.set_proposal(
             "" if found is None else words.format(day=numbers.format_day_month(found[1]), score=found[0])
         )
