@@ -23,12 +23,15 @@ FORBIDDEN = {
         r"Deckung", r"Wiedersehen", r"versiegel\w*", r"über Fehler", r"Bilder/s",
         r"Bemerkung\w*", r"IT-Support", r"Verteiler", r"Hinlangen", r"Flüssigkeit", r"von Hand", r"Markerset",
         r"Berichtigt", r"zählt nicht", r"Festplatten?", r"zweifelhaft\w*", r"Platte wie",
+        r"Probepatient\w*", r"Startstellung", r"zum Teil verdeckt", r"EDV-Betreuung", r"Registrierung von Tiefe",
     ),
     "it": (
         r"session[ei]", r"mano persa", r"segni di troppo", r"lettere di troppo", r"nocc(a|he)", r"ferma e rivedi",
         r"dischett[oi]", r"intanto", r"registrazione profondità-colore", r"va oltre", r"sigilla\w*", r"\w'\w+",
         r"assistenza informatica", r"lisciat\w+", r"fonte", r"cliccare", r"refert[oi]", r"a mano",
         r"scheda di controllo", r"«", r"non conta", r"dubbi[oae]?", r"immagine (precedente|seguente|incerta)",
+        r"cliccat\w+", r"rifare i clic", r"durante la misura", r"degli esperti", r"(al|del|dal) \{(day|when|date)\}",
+        r"(il|del|al) \{(share|percent)\}",
     ),
 }  # fmt: skip
 """Regular expressions of whole words, by language."""

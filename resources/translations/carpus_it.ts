@@ -2749,7 +2749,7 @@
     </message>
     <message>
         <source>Swap the two labels, or click both markers again.</source>
-        <translation>Scambiare le due etichette, o rifare i clic sui due marcatori.</translation>
+        <translation>Scambiare le due etichette, o fare di nuovo clic sui due marcatori.</translation>
     </message>
     <message>
         <source>Turn on depth registration in the camera settings, or track without depth.</source>

@@ -42,7 +42,7 @@ SIGNED = ("markers", "live", "review", "exercise")
 SIGN = "Simulated hand: not Linden 42, excluded from analysis."
 FAKED = (
     "Right hand", "Left hand", "Camera", "Sessions", "Review", "Report", "Progress", "Measure", "Markers", "Exercise",
-    "30 fps", "212 min", "Saved", "Splint off", "Flexion", "No camera",
+    "30 fps", "Space for 212 min", "Saved", "Splint off", "Flexion", "No camera",
 )  # fmt: skip
 """What the gallery's fakes say themselves."""
 
