@@ -19,7 +19,7 @@ from PySide6.QtCore import QPoint, Qt, qInstallMessageHandler
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
-from carpus.app.command_line import handle_stop_signals, print_message
+from carpus.app.command_line import handle_stop_signals
 from carpus.app.compose import compose
 from carpus.app.desktop.appearance import create_application
 from carpus.app.desktop.practice import practice_spec
@@ -39,8 +39,6 @@ from carpus.ui.words.finger_angles import find_finger_angle
 
 REPETITIONS = 2
 TIMEOUT_S = 60.0
-STEP_LINE_EVERY_S = 4.0
-"""Interval of the lines that state the progress where no terminal shows a bar."""
 Progress = Callable[[int, int | None], None]
 
 
@@ -53,48 +51,12 @@ class DemoResult:
     lines: Sequence[str]
 
 
-class StepLog:
-    """Prints the running step every few seconds where no terminal shows a bar."""
-
-    def __init__(self, is_terminal: bool) -> None:
-        self._is_terminal = is_terminal
-        self.begin_step("opening the window")
-
-    def begin_step(self, step: str) -> None:
-        """Start a step and print its name."""
-        self._step, self._done, self._total = step, 0, 0
-        self._write_line()
-
-    def update(self, done: int, total: int) -> None:
-        self._done, self._total = done, total
-
-    def tick(self) -> None:
-        """Print the step again if enough time has passed; called while it runs."""
-        if time.monotonic() - self._last_line_s >= STEP_LINE_EVERY_S:
-            self._write_line()
-
-    def _write_line(self) -> None:
-        self._last_line_s = time.monotonic()
-        if not self._is_terminal:
-            print_message(f"demo: {self._step}" + (f", {self._done} of {self._total}" if self._total > 1 else ""))
-
-
 class DemoDriver:
     """Presses keys and clicks like a person; waits for conditions, never for a fixed time."""
 
-    def __init__(
-        self,
-        desktop: Desktop,
-        is_stopping: Callable[[], bool] = lambda: False,
-        on_wait: Callable[[], None] = lambda: None,
-    ) -> None:
-        """Wrap a desktop.
-
-        ``is_stopping`` is asked at each wait and ends the run by KeyboardInterrupt; ``on_wait`` is called at each
-        wait.
-        """
+    def __init__(self, desktop: Desktop, is_stopping: Callable[[], bool] = lambda: False) -> None:
+        """Wrap a desktop; ``is_stopping`` is asked at each wait and ends the run by KeyboardInterrupt."""
         self.desktop = desktop
-        self._on_wait = on_wait
         self.controller = desktop.controller
         self._shown_faults: list[Exception] = []
         self._is_stopping = is_stopping
@@ -106,7 +68,6 @@ class DemoDriver:
         while not condition():
             if self._is_stopping():
                 raise KeyboardInterrupt
-            self._on_wait()
             if self._shown_faults:
                 raise self._shown_faults[0]
             if time.monotonic() > end_s:
@@ -189,37 +150,25 @@ class DemoDriver:
 def run_demo(settings: Settings, progress: Progress) -> DemoResult:
     """Run the complete workflow on the practice patient; raise the first fault that is shown."""
     settings = replace(settings, screen=ScreenSettings("light"), first_start=WelcomeSettings(answered=True))
-    steps = StepLog(sys.stderr.isatty())
     stopping = threading.Event()
-    handle_stop_signals(
-        stopping.set
-    )  # first of all: an exception out of the middle of a window's own work would be lost
+    # first of all: an exception out of the middle of a window's own work would be lost
+    handle_stop_signals(stopping.set)
     qInstallMessageHandler(_handle_qt_message)
     qt = create_application(["carpus"])
     desktop = compose(qt, settings, is_demo=True)
-
-    def show_progress(done: int, total: int) -> None:
-        steps.update(done, total)
-        progress(done, total)
-
     try:
-        walker = DemoDriver(desktop, stopping.is_set, steps.tick)
+        walker = DemoDriver(desktop, stopping.is_set)
         desktop.show()
         walker.run_until_screen("patients")
-        desktop.controller.opener.progress_changed.connect(show_progress)
-        steps.begin_step("simulating the camera's frames")
+        desktop.controller.opener.progress_changed.connect(progress)
         walker.start_practice()
         walker.run_until(lambda: desktop.controller.place == "markers", timeout_s=1800.0)
         set_up = desktop.controller.current.set_up
         assert set_up is not None
-        steps.begin_step("clicking the markers")
         walker.capture_frame()
         walker.click_markers(sample_clicks(SimulatedRecording(practice_spec(set_up)).truth).pixel)
-        steps.begin_step("simulating the rest of the frames")
         walker.run_until(lambda: is_cached(practice_spec(set_up)), timeout_s=1800.0)  # here nobody sees the hand rest
-        steps.begin_step("recording repetitions")
-        session_id = walker.record(REPETITIONS, lambda done: show_progress(done, REPETITIONS))
-        steps.begin_step("review, progress and report")
+        session_id = walker.record(REPETITIONS, lambda done: progress(done, REPETITIONS))
         walker.click_tab("progress")
         walker.click_tab("review")
         walker.run_until(lambda: desktop.controller.review.screen.is_loaded)

@@ -13,13 +13,8 @@ from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_fault, print_message
 from carpus.app.settings import Settings, load_valid_settings, sessions_folder
-from carpus.core.model.errors import (
-    CarpusFault,
-    DataFolderMissing,
-    FolderMissing,
-    SessionsMissing,
-    StudyUnsuited,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
@@ -61,7 +56,7 @@ def has_store(folder: Path) -> bool:
 def require_store(folder: Path) -> None:
     """Raise :class:`FolderMissing` or :class:`DataFolderMissing` for a folder without a patient list."""
     if not has_store(folder):
-        raise DataFolderMissing(folder) if folder.is_dir() else FolderMissing(folder)
+        raise errors.DataFolderMissing(folder) if folder.is_dir() else errors.FolderMissing(folder)
 
 
 def open_store(
@@ -151,11 +146,11 @@ def find_session_files(places: Sequence[Path]) -> list[Path]:
     found: dict[Path, None] = {}
     for place in places:
         if not place.exists():
-            raise FolderMissing(place)
+            raise errors.FolderMissing(place)
         some = sorted(place.rglob("*.h5")) if place.is_dir() else [place]
         found |= dict.fromkeys(path for path in some if path.name != TRUTH_FILE or path == place)
     if not found:
-        raise SessionsMissing(next(iter(places), ""))
+        raise errors.SessionsMissing(next(iter(places), ""))
     return list(found)
 
 
@@ -189,7 +184,7 @@ def read_figures(
                 raters[figures[-1].session_id] = raters_by_file[name]
                 met.add(name)
     if not figures:
-        raise StudyUnsuited(places[0], "no session can be read")
+        raise errors.StudyUnsuited(places[0], "no session can be read")
     for name in sorted(set(raters_by_file) - met):
         print_message(f"no session is called {name}, which the list of raters names.")
     return figures, raters

@@ -78,8 +78,13 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.sources import open_board
     from carpus.core.calibration.camera.board import CHESSBOARD
     from carpus.core.calibration.camera.board_views import ViewCollector
-    from carpus.core.calibration.camera.calibrate import calibrate_camera, format_calibration
-    from carpus.core.calibration.camera.storage import save_calibration, to_stored_calibration, write_calibration
+    from carpus.core.calibration.camera.calibrate import (
+        calibrate_camera,
+        format_calibration,
+        save_calibration,
+        to_stored_calibration,
+        write_calibration,
+    )
     from carpus.core.capture.calibrated_source import save_camera_name
     from carpus.core.model.dates import is_moment
     from carpus.core.model.errors import OutputExists

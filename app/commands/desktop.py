@@ -22,7 +22,6 @@ from carpus.app.settings import (
 )
 from carpus.core.model.errors import CarpusFault, DataFolderChanged, FolderInUse
 from carpus.core.platform.durable import make_private_folder
-from carpus.core.records.reserve import create_reserve
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 
 if TYPE_CHECKING:  # nothing of Qt without a display
@@ -114,6 +113,7 @@ def _open_desktop(
     from carpus.app.desktop.single_instance import SingleInstance
     from carpus.app.desktop.window import close_on_signals
     from carpus.core.records.restoring import delete_unfinished, has_restored_folder
+    from carpus.core.records.store import create_reserve
 
     while True:
         alone = SingleInstance(settings.data_folder)

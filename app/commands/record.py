@@ -28,7 +28,7 @@ from carpus.core.capture.source import FrameSource, find_recording_date
 from carpus.core.model.dates import to_iso
 from carpus.core.model.errors import CarpusFault, OutputExists
 from carpus.core.model.types import Frame
-from carpus.core.pipeline.recorder import Recorder
+from carpus.core.pipeline.recording import Recorder
 
 EXAMPLE = "carpus record --output out/hand.carpusraw --seconds 30"
 MAX_RECORDING_S = 86400.0

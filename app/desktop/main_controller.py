@@ -5,21 +5,23 @@ Each screen has a flow of its own (:mod:`ui.shell.flow`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import date, datetime
 from functools import partial
 from pathlib import Path
 
+from PySide6.QtCore import QObject, QTimer, Signal
+
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.screens import PLACES, Screens, load_flow_class
-from carpus.app.desktop.server_monitor import ServerMonitor
 from carpus.app.desktop.top_bar import TopBarController
 from carpus.app.settings import Settings
 from carpus.core.capture.files.raw import MB_PER_MINUTE
-from carpus.core.model.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault, ServerUnavailable
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.data_folder import DataFolder
+from carpus.core.records.new_sessions import RecoveredSession, recover_sessions
 from carpus.core.records.values import Patient
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
@@ -31,6 +33,59 @@ from carpus.ui.shell.messages import Messages
 from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.recent_locations import RecentLocations
 from carpus.ui.shell.source_opener import OpenSourceFunction, SourceOpener
+
+CHECK_EVERY_MS = 4_000
+
+CatchUp = tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]
+
+
+class ServerMonitor(QObject):
+    """Emits ``server_lost``, and ``server_restored`` with the result of :func:`recover`."""
+
+    server_lost = Signal()
+    server_restored = Signal(object)
+
+    def __init__(self, library: DataFolder, parent: QObject) -> None:
+        super().__init__(parent)
+        self._library, self._background = library, Background()
+        self._was_away = library.store.is_server_away
+        self._clock = QTimer(self, interval=CHECK_EVERY_MS)
+        self._clock.timeout.connect(self._check)
+        if library.store.server is not None:
+            self._clock.start()
+
+    def stop(self) -> None:
+        self._clock.stop()
+        self._background.join()
+
+    def _check(self) -> None:
+        if not self._background.is_busy:
+            self._background.run(
+                lambda: _check_server(self._library, self._was_away), self._handle_catch_up, self._handle_fault, self
+            )
+
+    def _handle_catch_up(self, caught: CatchUp | None) -> None:
+        if caught is not None:
+            self._was_away = False
+            self.server_restored.emit(caught)
+
+    def _handle_fault(self, fault: Exception) -> None:
+        if isinstance(fault, ServerUnavailable) and not self._was_away:
+            self._was_away = True
+            self.server_lost.emit()
+
+
+def _check_server(library: DataFolder, was_away: bool) -> CatchUp | None:
+    """Return what was recovered after an outage, None otherwise. Raises :class:`ServerUnavailable`."""
+    assert library.store.server is not None
+    library.store.server.ping()
+    if not was_away:
+        return None
+    caught = recover_sessions(library)
+    if library.store.is_server_away:  # once more
+        raise next(fault for fault in caught[1] if isinstance(fault, ServerUnavailable))
+    return caught
+
 
 ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 

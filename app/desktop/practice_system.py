@@ -17,9 +17,11 @@ from carpus.app.desktop.main_controller import MainController
 from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.settings import PracticeSystemSettings
 from carpus.core.formats import gdt
+from carpus.core.formats.gdt import GdtRequest
 from carpus.core.model.errors import CarpusFault, GdtUnreadable, NameUnsuited
 from carpus.core.platform.durable import write_fault
-from carpus.core.records.practice_system import save_requested_patient, set_aside
+from carpus.core.records.patients import Patients
+from carpus.core.records.values import Patient
 from carpus.core.results.measure import Measure
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.dialog import has_open_dialog
@@ -31,6 +33,34 @@ from carpus.ui.words.ranges import neutral_zero_words
 
 if TYPE_CHECKING:  # a report loads pyqtgraph, for which the window does not wait
     from carpus.ui.report.session_page import SessionReport
+
+
+UNREADABLE_SUFFIX = ".unreadable"
+
+
+def save_requested_patient(patients: Patients, request: GdtRequest) -> Patient:
+    """Return the patient of a request, with the identity that the practice system knows.
+
+    A patient is recognised by the record number. A new one gets a random pseudonym; of a known one name, birth date and
+    sex follow the request where it states them. Raises what :meth:`Patients.save` does.
+    """
+    name = " ".join(filter(None, (request.first_name, request.last_name)))
+    known = patients.id_of_record_number(request.number)
+    patient = patients.get(known) if known else Patient(patients.suggest_pseudonym(), "both")
+    stated = replace(
+        patient,
+        record_number=request.number,
+        name=name or patient.name,
+        birth_day=request.birth_date or patient.birth_day,
+        sex=request.sex or patient.sex,
+    )
+    return patients.get(patients.save(stated)) if stated != patient else patient
+
+
+def set_aside(path: Path) -> None:
+    """Rename a file that cannot be read, so that it is not read again. Raises OSError."""
+    path.replace(path.with_name(path.name + UNREADABLE_SUFFIX))
+
 
 POLL_MS = 2000
 """A folder in the network gives no notice of new files, so it is looked at."""

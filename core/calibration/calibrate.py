@@ -29,7 +29,6 @@ from carpus.core.calibration.neutral_depth import (
 )
 from carpus.core.calibration.neutral_pose import TOWARDS_CAMERA, estimate_neutral_pose
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import (
     MAX_CLICK_DISTANCE_RADII,
     MarkerAppearance,
@@ -45,6 +44,32 @@ from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
 from carpus.core.model.hand.clinical_angles import wrist_axes
 from carpus.core.model.types import Detections, FloatArray, Frame, Region
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationSettings:
+    """Limits of the hand calibration.
+
+    Attributes
+    ----------
+    still_s : float
+        Longest time over which the neutral pose is averaged while the hand is still.
+    min_distance_m : float
+        From camera to hand; wrist paper, II-C.
+    max_tilt_deg : float
+        Of the back of the hand to the image plane.
+    max_residual_mm : float
+        Of a marker from its expected position.
+    hand_length_mm : tuple of float
+        Shortest and longest plausible hand: a child of six to a tall man.
+    """
+
+    still_s: float = 0.5
+    min_distance_m: float = 0.6
+    max_tilt_deg: float = 15.0
+    max_residual_mm: float = 4.0
+    hand_length_mm: tuple[float, float] = (110.0, 225.0)
+
 
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""

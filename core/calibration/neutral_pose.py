@@ -14,6 +14,8 @@ from carpus.core.model.types import FloatArray
 
 _MAX_ITERATIONS = 30
 _CONVERGED_STEP = 1e-12
+PIXEL_SD_PX, DEPTH_SD_M = 0.3, 0.002
+"""Standard deviations of a marker's centre and of its depth, which weigh one against the other."""
 
 
 def estimate_neutral_pose(
@@ -23,9 +25,6 @@ def estimate_neutral_pose(
     depth_m: FloatArray,
     rotation_w0_cam: FloatArray,
     translation_w0_cam_m: FloatArray,
-    *,
-    pixel_sd_px: float = 0.3,
-    depth_sd_m: float = 0.002,
 ) -> tuple[FloatArray, FloatArray]:
     """Estimate rotation (3, 3) and translation (3,) of g_w0c from pixels and depths.
 
@@ -42,11 +41,9 @@ def estimate_neutral_pose(
         (M, 2) undistorted, (M,) with NaN where unknown
     rotation_w0_cam, translation_w0_cam_m
         start, (3, 3) and (3,)
-    pixel_sd_px, depth_sd_m
-        standard deviations of the measurements
     """
     rotation, translation = rotation_w0_cam, translation_w0_cam_m
-    weight = np.concatenate((np.full(pixel.size, 1.0 / pixel_sd_px), np.full(depth_m.size, 1.0 / depth_sd_m)))
+    weight = np.concatenate((np.full(pixel.size, 1.0 / PIXEL_SD_PX), np.full(depth_m.size, 1.0 / DEPTH_SD_M)))
     measured = np.concatenate((pixel.ravel(), depth_m))
     used = np.isfinite(measured)
     for _ in range(_MAX_ITERATIONS):

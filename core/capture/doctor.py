@@ -31,17 +31,8 @@ from carpus.core.capture.devices.cameras import (
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
-from carpus.core.model.errors import (
-    CameraBusy,
-    CameraLost,
-    CameraMismatch,
-    CameraMissing,
-    CameraPermission,
-    CarpusFault,
-    CompiledPartMissing,
-    DriverMissing,
-    ExtraMissing,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.fault_text import format_fault
 from carpus.core.model.installation import Finding, State, install_hint, is_packed
 from carpus.core.model.phrase import phrase
@@ -63,11 +54,11 @@ MIN_FPS = 20.0
 MEASURE_S = 3.0
 
 _REMEDIES: dict[type[CarpusFault], str] = {
-    CameraMissing: phrase("Plug the camera in."),
-    CameraMismatch: phrase("Plug in the camera named in the settings, or change the settings."),
-    CameraBusy: phrase("Close the other program that uses the camera."),
-    CameraPermission: phrase("Install the camera permissions named above and plug the camera in again."),
-    CameraLost: phrase("Plug the camera in again, into another port, without a hub."),
+    errors.CameraMissing: phrase("Plug the camera in."),
+    errors.CameraMismatch: phrase("Plug in the camera named in the settings, or change the settings."),
+    errors.CameraBusy: phrase("Close the other program that uses the camera."),
+    errors.CameraPermission: phrase("Install the camera permissions named above and plug the camera in again."),
+    errors.CameraLost: phrase("Plug the camera in again, into another port, without a hub."),
 }
 """Remedies that are more specific here than the general texts."""
 
@@ -129,7 +120,7 @@ def check_compiled_parts() -> Finding:
     """Check that the compiled modules are there: without them tracking is impossible."""
     try:
         import_module("carpus.core.compiled")
-    except CompiledPartMissing as fault:
+    except errors.CompiledPartMissing as fault:
         missing = phrase("missing: {name}", name=fault.subject)
         return Finding(phrase("Compiled parts"), "bad", missing, phrase("Install Carpus again."))
     return Finding(phrase("Compiled parts"), "good", phrase("complete"))
@@ -382,7 +373,7 @@ def _camera_fault_finding(fault: CarpusFault, uri: str) -> Finding:
     """Return the finding for a fault of the camera; a missing driver has the remedy of its own check."""
     words = format_fault(fault)
     remedy = _REMEDIES.get(type(fault), words.remedy)
-    if isinstance(fault, DriverMissing | ExtraMissing):
+    if isinstance(fault, errors.DriverMissing | errors.ExtraMissing):
         driver = load_camera_kind(choose_kind(uri)).check_driver(False, True)
         remedy = driver.remedy if driver is not None and driver.remedy else remedy
     return Finding(phrase("Frames"), "bad", words.summary, remedy)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
@@ -17,90 +16,8 @@ from carpus.core.capture.video_mode import Lens, PixelFormat
 from carpus.core.model.camera import DEFAULT_CAMERA, DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
 from carpus.core.model.types import Frame
 
-T = TypeVar("T")
-
 PAIRING_TOLERANCE_US = 20_000
 """A colour image without depth nearer in time than this has none."""
-
-
-@dataclass(frozen=True, slots=True)
-class TimestampedImage(Generic[T]):
-    """Image with its device time and its number in the stream."""
-
-    timestamp_us: int
-    number: int
-    image: T
-
-
-ImagePair = tuple[TimestampedImage[T], TimestampedImage[T] | None]
-
-
-class ApproximateTimeSynchronizer(Generic[T]):
-    """Pairs images of two streams by nearest time.
-
-    A colour image is released when its depth is certain: one nearer than half a period has come, or a later one. At
-    most ``limit`` images of a stream wait; then the oldest colour image is released with the nearest depth so far, or
-    the oldest depth image is dropped. A depth image serves one colour image.
-
-    The streams of a camera do not start at the same time: up to ``start_limit`` colour images before the first pair are
-    skipped; 0 keeps all, for a recording.
-
-    >>> synchronizer = ApproximateTimeSynchronizer[str](period_us=33_333)
-    >>> synchronizer.add_color(TimestampedImage(0, 1, "red"))
-    []
-    >>> [(color.image, depth.image) for color, depth in synchronizer.add_depth(TimestampedImage(4_000, 1, "near"))]
-    [('red', 'near')]
-    """
-
-    def __init__(self, period_us: float, *, has_depth: bool = True, limit: int = 4, start_limit: int = 0) -> None:
-        self._certain_gap_us = 0.45 * period_us
-        self._has_depth = has_depth
-        self._limit = limit
-        self._start_drops_left = start_limit
-        self._colors: deque[TimestampedImage[T]] = deque()
-        self._depths: deque[TimestampedImage[T]] = deque()
-
-    def add_color(self, color: TimestampedImage[T]) -> list[ImagePair[T]]:
-        self._colors.append(color)
-        return self._release_pairs()
-
-    def add_depth(self, depth: TimestampedImage[T]) -> list[ImagePair[T]]:
-        self._depths.append(depth)
-        decided = self._release_pairs()
-        while len(self._depths) > self._limit:
-            self._depths.popleft()
-        return decided
-
-    def finish(self) -> list[ImagePair[T]]:
-        """Return the pairs that were still open; no more images come."""
-        self._has_depth = False
-        return self._release_pairs()
-
-    def _release_pairs(self) -> list[ImagePair[T]]:
-        decided: list[ImagePair[T]] = []
-        while self._colors:
-            color = self._colors[0]
-            nearest = min(self._depths, key=lambda depth: abs(depth.timestamp_us - color.timestamp_us), default=None)
-            apart_us = abs(nearest.timestamp_us - color.timestamp_us) if nearest else 1 << 62
-            certain = (
-                not self._has_depth
-                or apart_us <= self._certain_gap_us
-                or (self._depths and self._depths[-1].timestamp_us >= color.timestamp_us)
-                or len(self._colors) > self._limit
-            )
-            if not certain:
-                break
-            self._colors.popleft()
-            partner = nearest if apart_us <= PAIRING_TOLERANCE_US else None
-            if partner is None and self._start_drops_left > 0 and self._has_depth:
-                self._start_drops_left -= 1
-            else:
-                self._start_drops_left = 0
-                decided.append((color, partner))
-            used_up_us = partner.timestamp_us + 1 if partner else color.timestamp_us - PAIRING_TOLERANCE_US
-            while self._depths and self._depths[0].timestamp_us < used_up_us:
-                self._depths.popleft()
-        return decided
 
 
 AnyImage = NDArray[Any]
@@ -162,68 +79,104 @@ class StreamLayout:
         return _make_read_only(turned.copy())
 
 
-class FrameAssembler:
-    """Builder of frames from images of one colour and one depth stream.
+class DriverImage(NamedTuple):
+    """Image with its device time and its number in the stream."""
 
-    ``period_us`` is the time between colour images. Frames are numbered from 0; a colour image that is not later than
-    the one before is skipped; ``start_limit`` as for :class:`ApproximateTimeSynchronizer`.
+    timestamp_us: int
+    number: int
+    image: AnyImage
+
+
+class FrameAssembler:
+    """Builder of frames from images of one colour and one depth stream, paired by nearest time.
+
+    A colour image is released when its depth is certain: one nearer than half a period has come, or a later one. At
+    most ``limit`` images of a stream wait; then the oldest colour image is released with the nearest depth so far, or
+    the oldest depth image is dropped. A depth image serves one colour image.
+
+    The streams of a camera do not start at the same time: up to ``start_limit`` colour images before the first pair are
+    skipped; 0 keeps all, for a recording. ``period_us`` is the time between colour images. Frames are numbered from 0;
+    a colour image that is not later than the one before is skipped.
     """
 
     def __init__(self, layout: StreamLayout, period_us: float, limit: int, start_limit: int = 0) -> None:
-        self.layout = layout
-        self._period_us = period_us
-        self._limit = limit
-        self._start_limit = start_limit
-        self._pairing = self._new_pairing()
+        self._period_us, self._limit, self._start_limit = period_us, limit, start_limit
         self._offset_us = 0
         self._index = 0
         self._last_us: int | None = None
+        self._reset(layout)
+
+    def _reset(self, layout: StreamLayout) -> None:
+        self.layout = layout
+        self._has_depth = layout.depth_size_px is not None
+        self._start_drops_left = self._start_limit
+        self._colors: deque[DriverImage] = deque()
+        self._depths: deque[DriverImage] = deque()
         self._last_number = 0
 
-    def _new_pairing(self) -> ApproximateTimeSynchronizer[AnyImage]:
-        has_depth = self.layout.depth_size_px is not None
-        return ApproximateTimeSynchronizer(
-            self._period_us, has_depth=has_depth, limit=self._limit, start_limit=self._start_limit
-        )
-
     def add_color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        stamped = TimestampedImage(timestamp_us, number, self.layout.convert_color(view))
-        return self._build_frames(self._pairing.add_color(stamped))
+        self._colors.append(DriverImage(timestamp_us, number, self.layout.convert_color(view)))
+        return self._release_frames()
 
     def add_depth(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        stamped = TimestampedImage(timestamp_us, number, self.layout.convert_depth(view))
-        return self._build_frames(self._pairing.add_depth(stamped))
+        self._depths.append(DriverImage(timestamp_us, number, self.layout.convert_depth(view)))
+        frames = self._release_frames()
+        while len(self._depths) > self._limit:
+            self._depths.popleft()
+        return frames
 
     def finish(self) -> list[Frame]:
-        return self._build_frames(self._pairing.finish())
+        """Return the frames that were still open; no more images come."""
+        self._has_depth = False
+        return self._release_frames()
 
     def restart(self, layout: StreamLayout, first_us: int, gap_us: int) -> None:
         """Continue after the device's clock restarted at ``first_us``, ``gap_us`` after the last frame.
 
         Times keep rising.
         """
-        self.layout = layout
-        self._pairing = self._new_pairing()
-        self._last_number = 0
+        self._reset(layout)
         if self._last_us is not None:
             self._offset_us = self._last_us + max(gap_us, 1) - first_us
 
-    def _build_frames(self, pairs: Iterable[ImagePair[AnyImage]]) -> list[Frame]:
-        frames = []
-        for color, depth in pairs:
-            now_us = color.timestamp_us + self._offset_us
-            missing = 0
-            if self._last_us is not None:
-                if now_us <= self._last_us:
-                    continue
-                by_time = round((now_us - self._last_us) / self._period_us) - 1
-                by_number = color.number - self._last_number - 1 if self._last_number else 0
-                missing = max(by_time, by_number, 0)
-            depth_raw = None if depth is None else depth.image
-            frames.append(Frame(self._index, now_us * 1e-6, color.image, depth_raw, self.layout.depth_unit_m, missing))
-            self._index += 1
-            self._last_us, self._last_number = now_us, color.number
+    def _release_frames(self) -> list[Frame]:
+        frames: list[Frame] = []
+        while self._colors:
+            color = self._colors[0]
+            nearest = min(self._depths, key=lambda depth: abs(depth.timestamp_us - color.timestamp_us), default=None)
+            apart_us = abs(nearest.timestamp_us - color.timestamp_us) if nearest else 1 << 62
+            certain = (
+                not self._has_depth
+                or apart_us <= 0.45 * self._period_us
+                or (self._depths and self._depths[-1].timestamp_us >= color.timestamp_us)
+                or len(self._colors) > self._limit
+            )
+            if not certain:
+                break
+            self._colors.popleft()
+            partner = nearest if apart_us <= PAIRING_TOLERANCE_US else None
+            if partner is None and self._start_drops_left > 0 and self._has_depth:
+                self._start_drops_left -= 1
+            else:
+                self._start_drops_left = 0
+                self._append_frame(frames, color, partner)
+            used_up_us = partner.timestamp_us + 1 if partner else color.timestamp_us - PAIRING_TOLERANCE_US
+            while self._depths and self._depths[0].timestamp_us < used_up_us:
+                self._depths.popleft()
         return frames
+
+    def _append_frame(self, frames: list[Frame], color: DriverImage, depth: DriverImage | None) -> None:
+        now_us, missing = color.timestamp_us + self._offset_us, 0
+        if self._last_us is not None:
+            if now_us <= self._last_us:
+                return
+            by_time = round((now_us - self._last_us) / self._period_us) - 1
+            by_number = color.number - self._last_number - 1 if self._last_number else 0
+            missing = max(by_time, by_number, 0)
+        depth_raw = None if depth is None else depth.image
+        frames.append(Frame(self._index, now_us * 1e-6, color.image, depth_raw, self.layout.depth_unit_m, missing))
+        self._index += 1
+        self._last_us, self._last_number = now_us, color.number
 
 
 def camera_from_field_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, float] | None) -> Camera | None:

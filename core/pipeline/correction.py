@@ -182,7 +182,7 @@ class _Retracker:
             shown = None if name in palm else place  # the palm is reacquired, with its markers
             if is_false or shown is not None:
                 not_px = ((float(old[0]), float(old[1])),) if is_false else ()
-                self._tracker.add_operator_label(MarkerLabel(correction.row, name, shown, not_px), is_asked_again=False)
+                self._tracker.add_operator_label(MarkerLabel(correction.row, name, shown, not_px))
         return blobs
 
 

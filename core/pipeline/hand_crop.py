@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
@@ -25,21 +22,6 @@ MAX_REGIONS = 2048
 """More than a minute of regions: longer than a frame waits for a slow disk."""
 
 
-class FrameSink(Protocol):
-    """Raw recording being written."""
-
-    @property
-    def path(self) -> Path: ...
-
-    def append_frame(self, frame: Frame) -> None: ...
-
-    def close(self) -> None: ...
-
-    def abandon(self) -> None: ...
-
-    def discard(self) -> None: ...
-
-
 class HandRegions:
     """Image regions of the hand over time; updated by the tracking thread, read by the writing thread."""
 
@@ -56,6 +38,10 @@ class HandRegions:
             if known_s <= time_s:
                 return area if time_s - known_s <= STALE_S else None
         return None
+
+    def crop(self, frame: Frame) -> Frame:
+        """Return a frame without what lies outside the region of the hand at its time."""
+        return mask_outside(frame, self.find_region(frame.timestamp_s))
 
 
 def compute_hand_region(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Region | None:
@@ -86,26 +72,3 @@ def mask_outside(frame: Frame, region: Region | None) -> Frame:
         depth = np.zeros_like(frame.depth_raw)
         depth[part] = frame.depth_raw[part]
     return replace(frame, color_rgb=color, depth_raw=depth)
-
-
-class HandCropWriter:
-    """Writer that passes frames on to a raw recording, cropped to the hand's surroundings."""
-
-    def __init__(self, sink: FrameSink, find_region: Callable[[float], Region | None]) -> None:
-        self._sink, self._find_region = sink, find_region
-
-    @property
-    def path(self) -> Path:
-        return self._sink.path
-
-    def append_frame(self, frame: Frame) -> None:
-        self._sink.append_frame(mask_outside(frame, self._find_region(frame.timestamp_s)))
-
-    def close(self) -> None:
-        self._sink.close()
-
-    def abandon(self) -> None:
-        self._sink.abandon()
-
-    def discard(self) -> None:
-        self._sink.discard()

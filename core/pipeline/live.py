@@ -27,11 +27,11 @@ from typing import Protocol, Self
 
 import numpy as np
 
+from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.model.errors import CameraLost, CameraReturned
 from carpus.core.model.types import Frame, TrackedFrame
 from carpus.core.pipeline.backlog import Backlog, Pipeline, QueuedFrame, compute_capacity
-from carpus.core.pipeline.hand_crop import FrameSink
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, LiveSettings, TrackedView
 from carpus.core.pipeline.queues import Mailbox
 from carpus.core.pipeline.recording import LiveRecording, QueuedEvent, SessionSink, read_free_bytes
@@ -175,7 +175,7 @@ class LiveSession:
     def start_recording(
         self,
         open_session: Callable[[], SessionSink],
-        open_frames: Callable[[], FrameSink] | None = None,
+        open_frames: Callable[[], RawWriter] | None = None,
         before_close: Callable[[], None] = lambda: None,
     ) -> None:
         """Open the session file (and a raw recording) and store all frames from now on.

@@ -20,22 +20,16 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo, compute_recording_id, find_recording_date, is_simulated
+from carpus.core.model import errors
 from carpus.core.model.camera import Camera
 from carpus.core.model.dates import to_iso
-from carpus.core.model.errors import (
-    CarpusFault,
-    DiskFull,
-    ExtraMissing,
-    OutputNotWritable,
-    RecordingEmpty,
-    SmoothingFailed,
-)
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg
 from carpus.core.model.phrase import phrase
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import ByteImage, FloatArray, Frame, TrackedFrame
-from carpus.core.pipeline.hand_crop import HandCropWriter, HandRegions
+from carpus.core.pipeline.hand_crop import HandRegions
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.smoothing import SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import (
@@ -149,19 +143,19 @@ class RecordedSession:
         """Finish the session file and remove the journal; a session without frames is discarded."""
         if not self._times_s:
             self.discard()
-            raise RecordingEmpty(self.path.name)
+            raise errors.RecordingEmpty(self.path.name)
         if self._smoothing is not None:
             try:
                 self._add_smoothed(self._smoothing.finish(self._pending_times_s()))
-            except SmoothingFailed as fault:
-                log.warning("%s", format_fault_line(SmoothingFailed(self.path, fault.detail)))
+            except errors.SmoothingFailed as fault:
+                log.warning("%s", format_fault_line(errors.SmoothingFailed(self.path, fault.detail)))
                 self._journal.add_event(self._times_s[-1], SMOOTHING_FAILED, fault.detail)
         self._journal.flush()
         draft = self._draft or SessionDraft(self._journal.path)
         try:
             draft.read()
             if draft.frame_count != len(self._times_s):  # else the journal would go with what is only in it
-                raise OutputNotWritable(self.path.parent, phrase("the saved data differ from the recorded data"))
+                raise errors.OutputNotWritable(self.path.parent, phrase("the saved data differ from the recorded data"))
             self.path = draft.finish() or self.path
         finally:
             draft.discard()
@@ -270,7 +264,7 @@ class MeasurementController:
         self._marker_image_rgb = _crop_markers(frames[0].color_rgb, outcome.pixel)
         try:
             self._session.set_listener(self._listener(self._calibration) if self._calibration is not None else None)
-        except ExtraMissing as fault:
+        except errors.ExtraMissing as fault:
             self._session.handle_notice(fault)
         self._session.start_tracking(self._pipeline)
         self._on_tracking_started()
@@ -293,7 +287,7 @@ class MeasurementController:
         if free < MIN_FREE_BYTES:
             free_mb, least_mb = format_rounded(free / 1e6), format_rounded(MIN_FREE_BYTES / 1e6)
             reason = phrase("{free} MB free, {least_free_bytes} MB are needed", free=free_mb, least_free_bytes=least_mb)
-            raise DiskFull(path.parent, reason)
+            raise errors.DiskFull(path.parent, reason)
         now = datetime.now().astimezone()
         recorded, identity = self._identity or (to_iso(now), str(uuid.uuid4()))
         header = new_header(
@@ -340,12 +334,12 @@ class MeasurementController:
             self._session.start()
         self._on_recording_started()
 
-    def _frame_writer_opener(self, path: Path, info: SourceInfo) -> Callable[[], HandCropWriter]:
+    def _frame_writer_opener(self, path: Path, info: SourceInfo) -> Callable[[], RawWriter]:
         """Return a function that opens a raw recording of the hand and its surroundings."""
         assert self._pipeline is not None
         hand = HandRegions(self.camera, self._set_up.protocol)
         self._pipeline.on_frame = hand.update
-        return lambda: HandCropWriter(RawWriter(path, info), hand.find_region)
+        return lambda: RawWriter(path, info, crop=hand.crop)
 
     def _format_parameters(self, noise: NeutralNoise) -> str:
         """Return all settings as JSON, with the targets of the exercise."""
@@ -369,7 +363,7 @@ class MeasurementController:
         """Store everything and return the session id; a fault is raised after stored data are finished."""
         try:
             path = self._session.stop_recording()
-        except RecordingEmpty:
+        except errors.RecordingEmpty:
             raise
         except Exception:
             self._new_sessions.recover_interrupted()

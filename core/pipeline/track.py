@@ -16,10 +16,15 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, MeasurementNoise, calibrate_hand, require_calibration
+from carpus.core.calibration.calibrate import (
+    CalibrationOutcome,
+    CalibrationSettings,
+    MeasurementNoise,
+    calibrate_hand,
+    require_calibration,
+)
 from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.image_codec import decode_color, decode_depth
 from carpus.core.capture.files.raw import LazyFrame, RawRecording
 from carpus.core.capture.source import FrameSource, RecordingDate, SourceInfo, compute_recording_id, find_recording_date

@@ -22,14 +22,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
 from typing import Any
 
-from carpus.core.model.errors import (
-    BackupFolderUnsuited,
-    BackupIncomplete,
-    BackupMismatch,
-    BackupUnreadable,
-    OutputBusy,
-    PatientListUnreadable,
-)
+from carpus.core.model import errors
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import (
     lock_file,
@@ -41,9 +34,8 @@ from carpus.core.platform.durable import (
 )
 from carpus.core.platform.version import __version__
 from carpus.core.records.database import STORE_FILE, copy_to_memory
-from carpus.core.records.reserve import RESERVE_FILE
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX
-from carpus.core.records.store import SESSIONS_FOLDER, require_store
+from carpus.core.records.store import RESERVE_FILE, SESSIONS_FOLDER, require_store
 from carpus.core.session.atomic_files import TEMPORARY, find_free_name
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
@@ -128,7 +120,7 @@ def create_backup(
     """
     data, there = data_folder.resolve(), _resolve_links(backup_folder)
     if data == there or data in there.parents or there in data.parents:
-        raise BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
+        raise errors.BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
     sources = collect_sources(data_folder, backup_folder, settings_folder, sessions_folder, copy_store)
     for folder in (backup_folder, backup_folder / OBJECTS, backup_folder / BACKUPS):
         make_private_folder(folder)
@@ -158,7 +150,7 @@ def _write_backup(
     for number, one in enumerate(files):
         try:
             _verify_file(backup_folder, one)
-        except BackupMismatch:  # kept from an earlier back-up, and damaged since
+        except errors.BackupMismatch:  # kept from an earlier back-up, and damaged since
             if one.path not in of:
                 raise
             with contextlib.suppress(BackupSourceError):
@@ -176,7 +168,7 @@ def _write_backup(
     )  # fmt: skip
     replace_text(backup_folder / BACKUPS / f"{made.name}.json", json.dumps(backup_to_dict(made), indent=1))
     if lacking:
-        raise BackupIncomplete(lacking[0], str(len(lacking)))
+        raise errors.BackupIncomplete(lacking[0], str(len(lacking)))
     return made
 
 
@@ -223,7 +215,7 @@ def list_backups(backup_folder: Path) -> list[Backup]:
 def _read_backups(paths: Iterable[Path]) -> list[Backup]:
     found = []
     for path in paths:
-        with contextlib.suppress(BackupUnreadable):
+        with contextlib.suppress(errors.BackupUnreadable):
             found.append(read_backup(path))
     return sorted(found, key=lambda one: one.made, reverse=True)
 
@@ -233,17 +225,17 @@ def read_backup(path: Path) -> Backup:
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         if content["format"] != FORMAT:
-            raise BackupUnreadable(path.stem, phrase("not a backup"))
+            raise errors.BackupUnreadable(path.stem, phrase("not a backup"))
         if _parse_count(content["format_version"]) > FORMAT_VERSION:
             newer = "version {version}, but this version of Carpus reads up to {format_version}"
-            raise BackupUnreadable(
+            raise errors.BackupUnreadable(
                 path.stem, phrase(newer, version=content["format_version"], format_version=FORMAT_VERSION)
             )
         files = tuple(
             BackupFile(str(p), str(h), _parse_count(size), _parse_count(ns)) for p, h, size, ns in content["files"]
         )
         if not all(_is_safe_path(one.path) and _SHA256.fullmatch(one.sha256) for one in files):
-            raise BackupUnreadable(path.stem, phrase("paths outside the folder"))
+            raise errors.BackupUnreadable(path.stem, phrase("paths outside the folder"))
         made = datetime.fromisoformat(content["made"])
         if made.tzinfo is None or not 2000 <= made.year < 9000 or len({one.path for one in files}) != len(files):
             raise ValueError("no such back-up was made")
@@ -258,7 +250,7 @@ def read_backup(path: Path) -> Backup:
             str(content.get("data_folder", "")),
         )
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OverflowError) as cause:
-        raise BackupUnreadable(path, str(cause)[:80]) from cause
+        raise errors.BackupUnreadable(path, str(cause)[:80]) from cause
 
 
 def verify_backup(backup_folder: Path, backup: Backup, progress: Progress = lambda _done, _total: None) -> None:
@@ -275,11 +267,11 @@ def prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) ->
     unless a backup cannot be read: then nobody knows what is needed. Symbolic links are not touched, and nothing at all
     while another program writes a backup. Raises :class:`BackupUnreadable`.
     """
-    with contextlib.suppress(OutputBusy), _exclusive_lock(backup_folder):
+    with contextlib.suppress(errors.OutputBusy), _exclusive_lock(backup_folder):
         try:
             listed = [path for path in (backup_folder / BACKUPS).iterdir() if path.suffix == ".json"]
         except OSError as cause:
-            raise BackupUnreadable(backup_folder / BACKUPS, cause.strerror or "") from cause
+            raise errors.BackupUnreadable(backup_folder / BACKUPS, cause.strerror or "") from cause
         there = _read_backups(listed)  # read once: a fault between two readings would cost what it hides
         sure = [one for one in there if one.made <= now]
         kept = {one.name for one in there if one not in sure} | {one.name for one in sure[:keep]}
@@ -345,7 +337,7 @@ def list_files(
             missing.append(name.rstrip("/"))
             continue
         if backup_folder is not None and backup_folder.is_relative_to(here.resolve()):
-            raise BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
+            raise errors.BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
         if (state.st_dev, state.st_ino) in seen:
             continue
         seen.add((state.st_dev, state.st_ino))
@@ -367,7 +359,9 @@ def _read_store(path: Path, copy_store: Callable[[], sqlite3.Connection] | None)
         try:
             wanted = [str(one) for (one,) in taken.execute("SELECT path FROM session WHERE erasing = 0")]
         except sqlite3.Error as cause:
-            raise PatientListUnreadable(path, str(cause) if path.stat().st_size else phrase("empty file")) from cause
+            raise errors.PatientListUnreadable(
+                path, str(cause) if path.stat().st_size else phrase("empty file")
+            ) from cause
         return taken.serialize(), wanted
 
 
@@ -390,7 +384,7 @@ def _exclusive_lock(backup_folder: Path) -> Iterator[None]:
         try:
             lock_file(lock)
         except OSError as cause:
-            raise OutputBusy(backup_folder) from cause
+            raise errors.OutputBusy(backup_folder) from cause
         yield
 
 
@@ -464,7 +458,7 @@ def _find_objects(backup_folder: Path) -> Iterator[Path]:
 
 def _verify_file(backup_folder: Path, file: BackupFile) -> None:
     if hash_file(object_path(backup_folder, file.sha256), from_disk=True) != file.sha256:
-        raise BackupMismatch(file.sha256[:12], Path(file.path).suffix)
+        raise errors.BackupMismatch(file.sha256[:12], Path(file.path).suffix)
 
 
 def hash_file(path: Path, *, from_disk: bool = False) -> str:

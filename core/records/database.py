@@ -14,15 +14,7 @@ from sqlalchemy import Connection, create_engine, event, inspect
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import StaticPool
 
-from carpus.core.model.errors import (
-    DiskFull,
-    OutputNotWritable,
-    PatientListBusy,
-    PatientListDamaged,
-    PatientListReadOnly,
-    PatientListUnreadable,
-    PatientListVersionUnknown,
-)
+from carpus.core.model import errors
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import is_disk_full, make_private_file, write_fault
 from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION, rename_former_columns
@@ -66,7 +58,7 @@ class Database:
             with self.writing() as connection:
                 is_checked = copy is None and path.stat().st_size <= MAX_CHECKED_BYTES  # a copy was when it was made
                 if is_checked and connection.exec_driver_sql("PRAGMA quick_check(1)").scalar() != "ok":
-                    raise PatientListDamaged(path, phrase("damaged"))
+                    raise errors.PatientListDamaged(path, phrase("damaged"))
                 self.is_new = migrate(connection, path)
                 self.had_unguarded_log = _restore_log_triggers(connection)
                 for table in METADATA.sorted_tables:  # as text: SQLAlchemy would take a millisecond for each
@@ -74,7 +66,7 @@ class Database:
                     connection.exec_driver_sql(f"SELECT {columns} FROM {table.name} LIMIT 0")
         except (DBAPIError, sqlite3.Error) as cause:
             self.close()
-            raise PatientListDamaged(path, str(getattr(cause, "orig", cause))) from cause
+            raise errors.PatientListDamaged(path, str(getattr(cause, "orig", cause))) from cause
         except BaseException:
             self.close()
             raise
@@ -133,15 +125,15 @@ class Database:
             error = getattr(cause, "orig", cause)
             code = getattr(error, "sqlite_errorcode", 0) & 0xFF
             if code == sqlite3.SQLITE_FULL or (code in MAYBE_FULL_CODES and is_disk_full(self._path.parent)):
-                raise DiskFull(self._path) from cause
+                raise errors.DiskFull(self._path) from cause
             if code in CANNOT_WRITE_CODES:
-                raise OutputNotWritable(self._path, str(error)) from cause
+                raise errors.OutputNotWritable(self._path, str(error)) from cause
             if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
-                raise PatientListDamaged(self._path, str(error)) from cause
+                raise errors.PatientListDamaged(self._path, str(error)) from cause
             if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-                raise PatientListBusy(self._path, str(error)) from cause
+                raise errors.PatientListBusy(self._path, str(error)) from cause
             if code == sqlite3.SQLITE_IOERR:
-                raise PatientListUnreadable(self._path, str(error)) from cause
+                raise errors.PatientListUnreadable(self._path, str(error)) from cause
             raise
 
 
@@ -163,10 +155,12 @@ def copy_to_memory(path: Path) -> sqlite3.Connection:
                 raise
             copy.deserialize(_read_unlocked(path))
         if copy.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
-            raise PatientListDamaged(path, phrase("damaged"))
+            raise errors.PatientListDamaged(path, phrase("damaged"))
     except (sqlite3.Error, OSError) as cause:
         copy.close()
-        raise (DiskFull(path) if is_disk_full(path.parent) else PatientListUnreadable(path, str(cause))) from cause
+        raise (
+            errors.DiskFull(path) if is_disk_full(path.parent) else errors.PatientListUnreadable(path, str(cause))
+        ) from cause
     except BaseException:
         copy.close()
         raise
@@ -186,8 +180,8 @@ def _read_unlocked(path: Path) -> bytes:
         if content == again and not is_written and not _has_journal(path):
             return content[:18] + b"\1\1" + content[20:]  # the mark of a write-ahead log would ask for one
     if _has_journal(path):
-        raise PatientListReadOnly(path)
-    raise PatientListBusy(path, phrase("folder not writable"))
+        raise errors.PatientListReadOnly(path)
+    raise errors.PatientListBusy(path, phrase("folder not writable"))
 
 
 def _has_journal(path: Path) -> bool:
@@ -207,14 +201,14 @@ def migrate(connection: Connection, name: Path | str) -> bool:
     if found == VERSION:
         return False
     if found is None and tables:
-        raise PatientListDamaged(name, phrase("damaged"))
+        raise errors.PatientListDamaged(name, phrase("damaged"))
     if found is not None and found not in map(str, range(1, int(VERSION))):
         error = phrase(
             "version {version}, but this version of Carpus reads up to {count}",
             version=str(found) or "?",
             count=VERSION,
         )
-        raise PatientListVersionUnknown(name, error)
+        raise errors.PatientListVersionUnknown(name, error)
     from alembic.command import upgrade
     from alembic.config import Config
 

@@ -18,20 +18,13 @@ from pathlib import Path
 
 from sqlalchemy import delete, select
 
-from carpus.core.model.errors import (
-    ConcurrentChange,
-    DiskFull,
-    ErasureBlockedByLink,
-    ErasureUnfinished,
-    FolderMissing,
-)
+from carpus.core.model import errors
 from carpus.core.model.names import fold_name
 from carpus.core.records.changes import ERASED_SUBJECTS, RowChange, delete_row, fingerprint, is_patient_id, update_row
 from carpus.core.records.clinic_records import clear_places
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import AuditLogWriter, SubjectKind
 from carpus.core.records.patients import Patients
-from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import DIAGNOSIS, FILE_STATE, PATIENT, RECIPIENT, SESSION
 from carpus.core.records.session_list import (
     COPY_REASON,
@@ -44,7 +37,7 @@ from carpus.core.records.session_list import (
     read_file_states,
 )
 from carpus.core.records.session_records import find_output_files
-from carpus.core.records.store import Store
+from carpus.core.records.store import Store, free_reserve
 from carpus.core.records.values import SessionEntry
 from carpus.core.session.atomic_files import iter_paths
 
@@ -100,7 +93,7 @@ def _build_plan(
         check_share(store)
     links = _symlinks_on_path(store, going, sessions)
     if links:
-        raise ErasureBlockedByLink(links[0])
+        raise errors.ErasureBlockedByLink(links[0])
     files = sorted(_files_to_delete(store, going, sessions))
     return ErasurePlan(
         kind, subject_id, patient_id, Patients(store).get(patient_id).pseudonym if patient_id else "",
@@ -120,7 +113,7 @@ def erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     """
     try:
         return _erase(store, plan, log)
-    except DiskFull:
+    except errors.DiskFull:
         if not free_reserve(store.folder):
             raise
         return _erase(store, plan, log)
@@ -133,13 +126,13 @@ def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     of = PATIENT if plan.kind == "patient" else SESSION
     try:
         store.apply([*marked, *([update_row(PATIENT, plan.patient_id, erasing=1)] if of is PATIENT else [])])
-    except ConcurrentChange:
+    except errors.ConcurrentChange:
         if store.row(select(of.c.id).where(of.c.id == plan.subject_id)):
             raise  # else another program has erased it meanwhile, which is what was asked for
     remaining = delete_marked(store)
     if remaining:
         log.write_entry("erase_begun", plan.kind, plan.subject_id, left=len(remaining))
-        raise ErasureUnfinished(remaining[0].name, f"{len(remaining)}")
+        raise errors.ErasureUnfinished(remaining[0].name, f"{len(remaining)}")
     log.write_entry("erased", plan.kind, plan.subject_id, files=len(plan.files))
     return len(plan.files)
 
@@ -294,7 +287,7 @@ def _is_companion(path: Path, stems: Collection[str]) -> bool:
 def _is_share_away(store: Store) -> bool:
     try:
         check_share(store)
-    except FolderMissing:
+    except errors.FolderMissing:
         return True
     return False
 

@@ -13,17 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.model.errors import (
-    CarpusFault,
-    ConcurrentChange,
-    FolderMissing,
-    OutputNotWritable,
-    ServerUnavailable,
-    SessionFilesIgnored,
-    SessionSpooled,
-    SessionUnreadable,
-    SpooledSessionErased,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import make_private_folder, write_fault
 from carpus.core.records.changes import is_patient_id
@@ -67,13 +58,13 @@ def recover_sessions(library: DataFolder) -> tuple[Sequence[RecoveredSession], S
     library.startup_faults, library.store.startup_faults = [], []
     try:
         library.resume_erasures()
-    except ServerUnavailable as fault:  # all of this when it is back
+    except errors.ServerUnavailable as fault:  # all of this when it is back
         return [], [*faults, fault]
     if not library.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
-        return [], [*faults, FolderMissing(library.store.sessions_folder)]
+        return [], [*faults, errors.FolderMissing(library.store.sessions_folder)]
     try:
         check_share(library.store)
-    except FolderMissing as fault:
+    except errors.FolderMissing as fault:
         return [], [*faults, fault]
     recovered, spool_faults = list[Path](), list[CarpusFault]()
     if _MOVE_LOCK.acquire(blocking=False):  # else another thread is at it
@@ -81,7 +72,7 @@ def recover_sessions(library: DataFolder) -> tuple[Sequence[RecoveredSession], S
             recovered, spool_faults = import_spooled(library.folder, partial(_session_folder, library))
         finally:
             _MOVE_LOCK.release()
-    faults += [*spool_faults, *([SpooledSessionErased()] * delete_orphan_folders(library.store))]
+    faults += [*spool_faults, *([errors.SpooledSessionErased()] * delete_orphan_folders(library.store))]
     files = SessionFileScanner(library.store)
     part_files = recover_recordings(library.store.sessions_folder, ignored=files.unrecoverable_parts())
     file_faults = [*files.filter_new_faults(part_files.faults), *files.scan().faults]
@@ -98,7 +89,7 @@ def recover_sessions(library: DataFolder) -> tuple[Sequence[RecoveredSession], S
         found.append(RecoveredSession(owner, header.session_id, pseudonym, header.recording_time, outline.duration_s))
     if len(file_faults) > MAX_LISTED_FILES:
         names = ", ".join(Path(fault.subject).name for fault in file_faults[:MAX_LISTED_FILES])
-        file_faults = [SessionFilesIgnored(f"{names}, …", phrase("{count} files", count=len(file_faults)))]
+        file_faults = [errors.SessionFilesIgnored(f"{names}, …", phrase("{count} files", count=len(file_faults)))]
     return found, [*faults, *file_faults]
 
 
@@ -139,7 +130,7 @@ def _publish(path: Path, get_folder: Callable[[], Path]) -> Path:
         finally:
             _MOVE_LOCK.release()
     if not done:
-        raise OutputNotWritable(path, phrase("no answer for {seconds} s", seconds=f"{PUBLISH_TIMEOUT_S:.0f}"))
+        raise errors.OutputNotWritable(path, phrase("no answer for {seconds} s", seconds=f"{PUBLISH_TIMEOUT_S:.0f}"))
     if isinstance(done[0], CarpusFault):
         raise done[0]
     return done[0]
@@ -174,9 +165,9 @@ class SessionIntake:
             entry = entry_from_outline(path, read_outline(path))
             library.unlisted[entry.session_id] = entry
             if not isinstance(
-                fault, (ServerUnavailable, ConcurrentChange)
+                fault, (errors.ServerUnavailable, errors.ConcurrentChange)
             ):  # else it is listed when the server is back
-                library.on_fault(SessionSpooled(path, fault.detail or phrase("not available now")))
+                library.on_fault(errors.SessionSpooled(path, fault.detail or phrase("not available now")))
             return entry.session_id
         library.audit_log.log_session("recorded", session_id)
         return session_id
@@ -186,7 +177,7 @@ class SessionIntake:
         for entry in read_or_default(lambda: self._library.sessions(set_up.patient_id), ()):
             if entry.hand != set_up.side:
                 continue
-            with suppress(SessionUnreadable):
+            with suppress(errors.SessionUnreadable):
                 session = read_session(entry.path)
                 verdict = session.calibration.verdict
                 # Another length that was accepted is the hand's from now on; only wrong names measured no hand.
@@ -203,7 +194,7 @@ class SessionIntake:
         """Return which fingers (thumb to little) were straight at the last calibration with these markers."""
         if set_up.protocol.has_fingers:
             for entry in read_or_default(lambda: self._library.matching_sessions(set_up.patient_id, set_up), ()):
-                with suppress(SessionUnreadable):
+                with suppress(errors.SessionUnreadable):
                     return read_session(entry.path).calibration.straight_fingers
         return ALL_STRAIGHT
 

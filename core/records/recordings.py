@@ -17,15 +17,8 @@ from pathlib import Path
 import platformdirs
 
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.model.errors import (
-    CarpusFault,
-    OutputNotWritable,
-    RecordingMissing,
-    RecordingTooShort,
-    SessionUnreadable,
-    SpooledSessionErased,
-    SpooledSessionMoved,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import lock_file, make_private_folder, open_private, sync_folder, write_fault
 from carpus.core.records.session_setup import MARKERS_SUFFIX
@@ -137,7 +130,7 @@ class SessionDraft:
 
 def has_session(path: Path, session_id: str) -> bool:
     """Return whether a file is the session with this id."""
-    with suppress(SessionUnreadable):
+    with suppress(errors.SessionUnreadable):
         return path.exists() and read_outline(path).header.session_id == session_id
     return False
 
@@ -158,7 +151,7 @@ def recover_recordings(folder: Path, now: datetime | None = None, ignored: Colle
     Files that cannot be completed stay as they are. Raises :class:`RecordingMissing` without a folder.
     """
     if not folder.is_dir():
-        raise RecordingMissing(folder)
+        raise errors.RecordingMissing(folder)
     when = (now or datetime.now().astimezone()).isoformat(timespec="seconds")
     recovered: list[Path] = []
     busy: list[Path] = []
@@ -174,7 +167,7 @@ def recover_recordings(folder: Path, now: datetime | None = None, ignored: Colle
         except CarpusFault as fault:
             faults.append(fault)
         except OSError as cause:
-            faults.append(SessionUnreadable(path, cause.strerror or ""))
+            faults.append(errors.SessionUnreadable(path, cause.strerror or ""))
     return RecoveryResult(tuple(recovered), tuple(busy), tuple(faults), tuple(empty))
 
 
@@ -193,10 +186,10 @@ def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path |
         with JournalReader(path) as journal:
             is_damaged = journal.is_damaged()
     if is_damaged and target is None:
-        raise SessionUnreadable(path, phrase("damaged"))
+        raise errors.SessionUnreadable(path, phrase("damaged"))
     if is_damaged:
         aside = path.rename(find_free_name(path.with_suffix(".damaged")))
-        faults.append(SessionUnreadable(aside, phrase("damaged")))
+        faults.append(errors.SessionUnreadable(aside, phrase("damaged")))
     path.unlink(missing_ok=True)
     sync_folder(path.parent)
     return target
@@ -280,32 +273,32 @@ def import_spooled(
         return [], []
     found = recover_recordings(place)
     recovered: list[Path] = []
-    faults: list[CarpusFault] = [RecordingTooShort(path.name) for path in found.empty]
+    faults: list[CarpusFault] = [errors.RecordingTooShort(path.name) for path in found.empty]
     erased = [one for one in sorted(place.iterdir()) if one.is_dir() and find_folder(one.name, "") is None]
     for folder in erased if not found.in_progress else ():
         try:
             shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
-            faults.append(SpooledSessionErased())
+            faults.append(errors.SpooledSessionErased())
         except OSError as cause:
-            faults.append(OutputNotWritable(place, cause.strerror or ""))
+            faults.append(errors.OutputNotWritable(place, cause.strerror or ""))
     faults += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
     for path in sorted(one for one in place.rglob("*.h5") if not one.name.startswith(".")):
         try:
             home = find_folder(path.parent.name, read_outline(path).header.subject_id)
             if home is None:
-                faults.append(SpooledSessionErased())
+                faults.append(errors.SpooledSessionErased())
                 remove_published(path)
             else:
                 arrived = publish_session(path, home)
                 if path in found.recovered:
                     recovered.append(arrived)
                 else:
-                    faults.append(SpooledSessionMoved(arrived))
+                    faults.append(errors.SpooledSessionMoved(arrived))
             if path.parent != place:
                 with suppress(OSError):  # another recording waits in it
                     path.parent.rmdir()
         except CarpusFault as fault:
             faults.append(fault)
         except OSError as cause:
-            faults.append(OutputNotWritable(data_folder, cause.strerror or ""))
+            faults.append(errors.OutputNotWritable(data_folder, cause.strerror or ""))
     return recovered, faults

@@ -18,13 +18,8 @@ from typing import Any
 
 from sqlalchemy import Row, delete, insert, select
 
-from carpus.core.model.errors import (
-    CarpusFault,
-    FolderMissing,
-    OutputNotWritable,
-    SessionShareEmpty,
-    SessionUnreadable,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.names import fold_name
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Side
@@ -125,10 +120,10 @@ def check_share(store: Store) -> None:
     if not store.uses_share or mark.exists():
         return
     if not root.is_dir():
-        raise FolderMissing(root)
+        raise errors.FolderMissing(root)
     if not any(iter_paths(root, ".h5")):
         if store.row(select(SESSION.c.id).limit(1)) is not None:
-            raise SessionShareEmpty(root)
+            raise errors.SessionShareEmpty(root)
         return
     with suppress(OSError):  # the last session may go, and what is left of it is to be gone on with
         mark.touch()
@@ -193,9 +188,9 @@ class SessionList:
         folder = self.folder / patient_id
         check_share(self._store)
         if not changes.is_patient_id(patient_id):
-            raise OutputNotWritable(folder)
+            raise errors.OutputNotWritable(folder)
         if not self.folder.is_dir():  # a disk that was unplugged: what is made in its place would hide under it
-            raise FolderMissing(self.folder)
+            raise errors.FolderMissing(self.folder)
         make_private_folder(folder)
         return folder
 
@@ -296,7 +291,7 @@ class SessionList:
         for one, folder in ((path, self.folder), (path.resolve(), self._resolved_folder)):
             if one.is_relative_to(folder):
                 return one.relative_to(folder).as_posix()
-        raise SessionUnreadable(path, phrase("not in the session folder"))
+        raise errors.SessionUnreadable(path, phrase("not in the session folder"))
 
     def _entry_from_row(self, row: Row[Any]) -> SessionEntry:
         return SessionEntry(
@@ -333,7 +328,7 @@ def find_pending_results(store: Store, session_ids: Collection[str]) -> Iterator
     for path in folder.glob("*.h5*") if not folder.is_symlink() else ():
         try:
             header = read_outline(path).header
-        except SessionUnreadable:
+        except errors.SessionUnreadable:
             stem = re.split(r"\.h5\b", path.name)[0]
             stems = {stem, re.sub(r"-\d+$", "", stem)}
             if stems & mine and not stems & others:
@@ -375,9 +370,9 @@ class SessionFileScanner:
             now_seen[path] = look
             try:
                 if look.reason:
-                    raise SessionUnreadable(self._folder / path, look.reason)
+                    raise errors.SessionUnreadable(self._folder / path, look.reason)
                 found.append((path, read_outline(self._folder / path)))
-            except SessionUnreadable as fault:
+            except errors.SessionUnreadable as fault:
                 faults.append(fault)
                 if reports_faults:
                     now_seen[path] = FileState(look.size, look.modified_ns, fault.detail or "cannot be read")
@@ -385,7 +380,7 @@ class SessionFileScanner:
                     del now_seen[path]
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
             faults += [
-                SessionUnreadable(ascii(Path(one).name), phrase("damaged: a name in it is not text"))
+                errors.SessionUnreadable(ascii(Path(one).name), phrase("damaged: a name in it is not text"))
                 for one in nameless
             ]
         unfinished = {path for path in before if path.endswith(".part") and (self._folder / path).exists()}
@@ -468,7 +463,7 @@ class SessionFileScanner:
             try:
                 state = Path(fault.subject).lstat()
                 path = self._session_list.relative_path(Path(fault.subject))
-            except (OSError, ValueError, SessionUnreadable):
+            except (OSError, ValueError, errors.SessionUnreadable):
                 fresh.append(fault)
                 continue
             look = FileState(state.st_size, state.st_mtime_ns, fault.detail or "cannot be read")

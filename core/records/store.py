@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import shutil
 import sqlite3
 import time
 import uuid
@@ -13,29 +16,43 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, select
 
-from carpus.core.model.errors import (
-    CarpusFault,
-    DataFolderMissing,
-    DiskFull,
-    FolderMissing,
-    LogProtectionRestored,
-    OutputNotWritable,
-    PatientListBusy,
-    PatientListDamaged,
-    PatientListMissing,
-    PatientListRebuilt,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder
+from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder, open_private
 from carpus.core.records.changes import ChangeSet, apply_changes, insert_row
 from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
-from carpus.core.records.reserve import free_reserve
 from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.atomic_files import iter_paths
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
+
+
+RESERVE_FILE = ".reserve"
+RESERVE_BYTES = 2 << 20
+"""For pages that SQLite writes before it can free others."""
+MIN_FREE_BYTES = 20 * RESERVE_BYTES
+
+
+def create_reserve(folder: Path) -> None:
+    """Reserve the space if there is plenty and none is reserved."""
+    path = folder / RESERVE_FILE
+    with contextlib.suppress(OSError):
+        if not path.exists() and shutil.disk_usage(folder).free > MIN_FREE_BYTES:
+            with open(path, "xb", opener=open_private) as file:
+                file.write(os.urandom(RESERVE_BYTES))  # what no disk can make smaller
+
+
+def free_reserve(folder: Path) -> bool:
+    """Free the space; return whether there was any."""
+    try:
+        (folder / RESERVE_FILE).unlink()
+    except OSError:
+        return False
+    return True
+
 
 T = TypeVar("T")
 SESSIONS_FOLDER = "sessions"
@@ -84,9 +101,9 @@ class Store:
             return
         self._database = database = self._open_database() if copy is None else Database(self._path, copy)
         if database.had_unguarded_log:
-            self.startup_faults.append(LogProtectionRestored(self._path))
+            self.startup_faults.append(errors.LogProtectionRestored(self._path))
         if database.is_new and not self.startup_faults and self._has_sessions():
-            self.startup_faults.append(PatientListMissing(self._path))
+            self.startup_faults.append(errors.PatientListMissing(self._path))
         with database.writing() as connection:
             _ensure_practice_patient(connection)
 
@@ -126,15 +143,17 @@ class Store:
             try:
                 try:
                     return Database(path)
-                except DiskFull:
+                except errors.DiskFull:
                     if not free_reserve(self.folder):
                         raise
                     return Database(path)
-            except PatientListDamaged as fault:
+            except errors.PatientListDamaged as fault:
                 aside, database = move_aside(path, datetime.now()), Database(path)
                 rows = rescue_rows(aside, database)
                 self.startup_faults.append(
-                    PatientListRebuilt(aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows))
+                    errors.PatientListRebuilt(
+                        aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows)
+                    )
                 )
                 return database
 
@@ -177,7 +196,9 @@ class Store:
             except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as cause:
                 if row.id not in self._reported_rows:
                     self._reported_rows.add(row.id)
-                    self._on_fault(PatientListDamaged(self.folder / STORE_FILE, str(cause)[:MAX_DETAIL_CHARACTERS]))
+                    self._on_fault(
+                        errors.PatientListDamaged(self.folder / STORE_FILE, str(cause)[:MAX_DETAIL_CHARACTERS])
+                    )
         return found
 
     def execute_local(self, *statements: Insert | Delete | Update) -> None:
@@ -219,7 +240,7 @@ def open_to_read(
     """Open a store for reading, also in a read-only folder. Raises the faults of a store."""
     try:
         return Store(folder, sessions_folder, url, on_fault)
-    except (OutputNotWritable, DiskFull):
+    except (errors.OutputNotWritable, errors.DiskFull):
         return Store(folder, sessions_folder, copy=copy_to_memory(folder / STORE_FILE))
 
 
@@ -239,7 +260,7 @@ def _exclusive_lock(path: Path) -> Iterator[None]:
                 break
             except OSError as cause:
                 if time.monotonic() > end:
-                    raise PatientListBusy(path, cause.strerror or "") from cause
+                    raise errors.PatientListBusy(path, cause.strerror or "") from cause
                 time.sleep(0.02)
         yield
 
@@ -263,6 +284,6 @@ def has_store(folder: Path) -> bool:
 def require_store(folder: Path) -> None:
     """Raise :class:`FolderMissing` or :class:`DataFolderMissing` for a folder without a store."""
     if not folder.is_dir():
-        raise FolderMissing(folder)
+        raise errors.FolderMissing(folder)
     if not has_store(folder):
-        raise DataFolderMissing(folder)
+        raise errors.DataFolderMissing(folder)

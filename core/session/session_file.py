@@ -15,17 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
+from carpus.core.model import errors
 from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
 from carpus.core.model.dates import moment_from_timestamp, to_iso
 from carpus.core.model.depth_sensor import ASSUMED_SENSOR, parse_sensor
-from carpus.core.model.errors import (
-    CarpusFault,
-    ProtocolUnknown,
-    SessionChanged,
-    SessionMissing,
-    SessionUnfinished,
-    SessionUnreadable,
-)
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.hand.dorsal_surface import DorsalSurface
 from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.model.phrase import phrase
@@ -111,7 +105,7 @@ def verify(path: Path) -> VerificationResult:
     with open_session(path) as file:
         seal = str(file.attrs.get(CHECKSUM_ATTRIBUTE, ""))
         if seal and seal != compute_checksum(file):
-            raise SessionChanged(path)
+            raise errors.SessionChanged(path)
     if not seal:
         read_detections(path)
     return VerificationResult(len(session), bool(seal))
@@ -162,13 +156,13 @@ def open_session(path: Path) -> Iterator[h5py.File]:
     """Open a session file that this version reads; any failure inside becomes :class:`SessionUnreadable`."""
     if not path.is_file():
         if not path.exists():
-            raise SessionMissing(path)
-        raise SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("not a file"))
+            raise errors.SessionMissing(path)
+        raise errors.SessionUnreadable(path, phrase("a folder") if path.is_dir() else phrase("not a file"))
     try:
         with h5py.File(path, "r") as file:
             check_structure(file, path.stat().st_size)
             if file.attrs.get("format") != schema.FORMAT:
-                raise SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
+                raise errors.SessionUnreadable(path, phrase("an HDF5 file, but not a session"))
             version = _format_version(file)
             if not 1 <= version <= schema.NEWEST_VERSION:
                 text = phrase(
@@ -176,20 +170,20 @@ def open_session(path: Path) -> Iterator[h5py.File]:
                     version=version,
                     format_version=schema.NEWEST_VERSION,
                 )
-                raise SessionUnreadable(path, text)
+                raise errors.SessionUnreadable(path, text)
             yield file
     except BlockingIOError as cause:
-        raise SessionUnreadable(path, phrase("still being recorded")) from cause
+        raise errors.SessionUnreadable(path, phrase("still being recorded")) from cause
     except CarpusFault:
         raise
     except ContentError as cause:
-        raise SessionUnreadable(path, cause.args[0]) from cause
+        raise errors.SessionUnreadable(path, cause.args[0]) from cause
     except MemoryError as cause:
-        raise SessionUnreadable(path, phrase("damaged: reading it needs too much memory")) from cause
+        raise errors.SessionUnreadable(path, phrase("damaged: reading it needs too much memory")) from cause
     except Exception as cause:  # a damaged file may make the library and the code above it raise anything
         # The library's own message helps developers only.
         log.info("reading %s: %s", path, cause)
-        raise SessionUnreadable(
+        raise errors.SessionUnreadable(
             path, phrase("damaged") if h5py.is_hdf5(path) else phrase("not a session file")
         ) from cause
 
@@ -312,7 +306,7 @@ class _SessionFile:
     def _read_header(self) -> SessionHeader:
         try:
             protocol = get_protocol(str(self._read_attribute("protocol")))
-        except ProtocolUnknown as cause:
+        except errors.ProtocolUnknown as cause:
             raise ContentError(phrase("marker set {subject}", subject=cause.subject)) from cause
         hand = str(self._read_attribute("hand"))
         if hand not in ("right", "left"):
@@ -345,7 +339,7 @@ class _SessionFile:
     @cached_property
     def _rows(self) -> RowCounts:
         if not self._read_attribute("complete"):
-            raise SessionUnfinished(self._path)
+            raise errors.SessionUnfinished(self._path)
         lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
         streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
         return RowCounts(*lengths, *streams)

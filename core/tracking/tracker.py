@@ -207,17 +207,9 @@ class Tracker:
     def is_lost(self) -> bool:
         return self._manager.is_lost
 
-    def add_operator_label(self, label: MarkerLabel, *, is_asked_again: bool = True) -> None:
-        """Add a person's label of a frame shown a moment ago, from the next frame on.
-
-        To be called between frames, where they are tracked. ``is_asked_again``: the person is asked again after a
-        while.
-        """
-        self._labels.add(label, is_asked_again=is_asked_again)
-
-    def pop_applied_labels(self) -> list[MarkerLabel]:
-        """Return the labels applied since the last call, with the blobs as they lay in that frame."""
-        return self._labels.pop_applied()
+    def add_operator_label(self, label: MarkerLabel) -> None:
+        """Add a person's label of this or an earlier frame, from the next frame on."""
+        self._labels.add(label)
 
     def predict_measurement(self, timestamp_s: float) -> PredictedMeasurement | None:
         """Return the predicted measurement at that time; None when the hand is lost."""
@@ -262,7 +254,6 @@ class Tracker:
         predicted = self._filter.predict(dt_s)
         scan = self._filter.build_scan(predicted, ideal, timestamp_s, dt_s)
         if label is not None:
-            self._labels.mark_applied(label)
             self._frame_builder.reset_consistency()
             placed = self._filter.place_marker(label, predicted, scan)
             if placed is not None:

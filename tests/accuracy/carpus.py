@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.calibrate import MeasuredHand, capture_neutral_pose, measure_hand
+from carpus.core.calibration.calibrate import CalibrationSettings, MeasuredHand, capture_neutral_pose, measure_hand
 from carpus.core.calibration.clicks_file import read_clicks
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.model.errors import CalibrationImpossible
 from carpus.core.model.types import Detections, FloatArray, TrackedFrame, TrackStatus

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.manifest import read_manifest
+from carpus.app.commands.track_many import read_manifest
 from carpus.core.session.reader import read_session
 from tests.commands import Command
 from tests.rendered import DEVIATION, FLEXION, REPEATED_FLEXION, Rendered

@@ -8,9 +8,8 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand
+from carpus.core.calibration.calibrate import CalibrationOutcome, CalibrationSettings, calibrate_hand
 from carpus.core.calibration.result import Clicks
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import disc_mask
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.hand.protocols import WRIST6

@@ -10,13 +10,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.calibrate import (
+    CalibrationSettings,
     NeutralCapture,
     check_hand_length,
     measure_hand,
     require_calibration,
 )
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.model.depth_sensor import PRIMESENSE
 from carpus.core.model.errors import ClickOnNoMarker, MarkerWithoutDepth
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol

@@ -8,10 +8,9 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.calibration.calibrate import calibrate_hand
+from carpus.core.calibration.calibrate import CalibrationSettings, calibrate_hand
 from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, find_nearest_blob
 from carpus.core.calibration.label_proposal import propose_labels
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.protocols import HAND21

@@ -6,16 +6,13 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from carpus.core.calibration.neutral_pose import estimate_neutral_pose
+from carpus.core.calibration.neutral_pose import DEPTH_SD_M, PIXEL_SD_PX, estimate_neutral_pose
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import FloatArray
 from tests.tracking.hands import FROM_ABOVE
 from tests.tracking.hands import RIGHT_PALM_M as PALM_M
 
 CAMERA = Camera(520.0, 530.0, 318.0, 243.0)
-
-
-PIXEL_SD, DEPTH_SD = 0.3, 0.002
 
 
 def true_pose(seed: int) -> tuple[FloatArray, FloatArray]:
@@ -33,7 +30,6 @@ def measure_markers(rotation: FloatArray, translation: FloatArray) -> FloatArray
 def fit_pose(values: FloatArray, rotation: FloatArray, translation: FloatArray) -> tuple[FloatArray, FloatArray]:
     return estimate_neutral_pose(
         CAMERA, PALM_M, values[:12].reshape(6, 2), values[12:], rotation, translation,
-        pixel_sd_px=PIXEL_SD, depth_sd_m=DEPTH_SD,
     )  # fmt: skip
 
 
@@ -52,7 +48,7 @@ def predicted_covariance(rotation: FloatArray, translation: FloatArray) -> Float
             for s in (1.0, -1.0)
         )
         columns.append((ahead - back) / 2e-6)
-    h = np.stack(columns, axis=1) / np.concatenate((np.full(12, PIXEL_SD), np.full(6, DEPTH_SD)))[:, None]
+    h = np.stack(columns, axis=1) / np.concatenate((np.full(12, PIXEL_SD_PX), np.full(6, DEPTH_SD_M)))[:, None]
     return np.asarray(np.linalg.inv(h.T @ h))
 
 
@@ -62,7 +58,7 @@ def test_neutral_pose_errors_match_the_predicted_covariance() -> None:
     rng = np.random.default_rng(0)
     errors = []
     for _ in range(300):
-        noise = np.concatenate((PIXEL_SD * rng.normal(size=12), DEPTH_SD * rng.normal(size=6)))
+        noise = np.concatenate((PIXEL_SD_PX * rng.normal(size=12), DEPTH_SD_M * rng.normal(size=6)))
         found = fit_pose(measure_markers(rotation, translation) + noise, rotation, translation)
         errors.append(np.concatenate((found[1] - translation, angle_between(rotation, found[0]))))
     error = np.array(errors)

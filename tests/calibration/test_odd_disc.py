@@ -7,9 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate_hand
+from carpus.core.calibration.calibrate import CalibrationOutcome, CalibrationSettings, calibrate_hand
 from carpus.core.calibration.label_checks import average_palm, find_odd_marker
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.hand.protocols import PALM_MARKERS
 from carpus.core.model.types import FloatArray, Side

@@ -7,9 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.calibration.calibrate import calibrate_hand
+from carpus.core.calibration.calibrate import CalibrationSettings, calibrate_hand
 from carpus.core.calibration.neutral_depth import estimate_depth_offset_px
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.appearance import learn_appearance
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.types import FloatArray, Frame

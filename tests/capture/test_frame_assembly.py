@@ -16,28 +16,36 @@ from carpus.core.capture.devices.openni2_camera import MODELS, frame_size_bytes
 from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.frame_assembly import (
     PAIRING_TOLERANCE_US,
-    ApproximateTimeSynchronizer,
     FrameAssembler,
     StreamLayout,
-    TimestampedImage,
 )
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.model.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
+from carpus.core.model.types import Frame
 
 PERIOD_US = 33_333
 
 
+LAYOUT = StreamLayout((6, 4), (6, 4))
+
+
+def feed(assembler: FrameAssembler, kind: str, time_us: int, number: int = 1) -> list[Frame]:
+    """Feed an image; depth has the value of its turn, by which it is found again."""
+    view = np.zeros((4, 6, 3), np.uint8) if kind == "color" else np.full((4, 6), number, np.uint16)
+    return (assembler.add_color if kind == "color" else assembler.add_depth)(time_us, number, view)
+
+
 def pair_images(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:
     """Times of colour pictures and their depth, fed in this order."""
-    pairing = ApproximateTimeSynchronizer[str](PERIOD_US, limit=limit, start_limit=start_limit)
-    out = []
-    for kind, time_us in events:
-        out += (pairing.add_color if kind == "color" else pairing.add_depth)(TimestampedImage(time_us, 1, kind))
-    out += pairing.finish()
-    return [(color.timestamp_us, depth.timestamp_us if depth else None) for color, depth in out]
+    assembler, out = FrameAssembler(LAYOUT, PERIOD_US, limit, start_limit), []
+    for turn, (kind, time_us) in enumerate(events):
+        out += feed(assembler, kind, time_us, 0 if kind == "color" else turn)
+    out += assembler.finish()
+    depth_us = [None if one.depth_raw is None else events[int(one.depth_raw[0, 0])][1] for one in out]
+    return [(round(1e6 * frame.timestamp_s), at) for frame, at in zip(out, depth_us, strict=True)]
 
 
-def test_synchronizer_skips_colour_without_depth_at_start_only() -> None:
+def test_frame_assembler_skips_colour_without_depth_at_start_only() -> None:
     events = [("color", 0), ("color", 33_000), ("depth", 66_000), ("color", 66_000), ("color", 99_000)]
     assert pair_images(events, start_limit=5) == [(66_000, 66_000), (99_000, None)]
     assert pair_images(events, start_limit=0)[0] == (0, None)
@@ -48,7 +56,7 @@ def test_synchronizer_skips_colour_without_depth_at_start_only() -> None:
     st.lists(st.integers(1, 50_000), min_size=0, max_size=30),
     st.integers(-20_000, 20_000),
 )
-def test_synchronizer_uses_each_colour_once_and_depth_at_most_once(
+def test_frame_assembler_uses_each_colour_once_and_depth_at_most_once(
     color: list[int], depth: list[int], shift: int
 ) -> None:
     events = [("color", int(t)) for t in np.cumsum(color)] + [("depth", int(t) + shift) for t in np.cumsum(depth)]

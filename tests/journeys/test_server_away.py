@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
-from carpus.app.desktop import server_monitor
+from carpus.app.desktop import main_controller
 from carpus.app.settings import RecordingSettings, RecordsSettings, ScreenSettings, Settings
 from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
@@ -51,7 +51,7 @@ def is_away(desktop: Desktop) -> bool:
 def test_server_that_stops_hides_list_and_measuring_continues(
     qtbot: QtBot, open_desktop: Open, take: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server_monitor, "CHECK_EVERY_MS", 200)
+    monkeypatch.setattr(main_controller, "CHECK_EVERY_MS", 200)
     settings = Settings(
         screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False),
         records=RecordsSettings(url=cluster.url()),

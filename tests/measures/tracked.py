@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.calibration.calibrate import CalibrationSettings
 from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import noise_from_neutral, restart_at_neutral
 from carpus.core.session.values import Motion, stack_states

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.calibration.calibrate import CalibrationSettings
 from carpus.core.model.errors import MarkersNotCorrectable, OutputExists
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import FloatArray

@@ -12,7 +12,7 @@ from carpus.core.capture.files.raw import BYTES_PER_FRAME, RawRecording, RawWrit
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import Frame, TrackedFrame, TrackStatus
-from carpus.core.pipeline.hand_crop import HandCropWriter, HandRegions, compute_hand_region, mask_outside
+from carpus.core.pipeline.hand_crop import HandRegions, compute_hand_region, mask_outside
 from carpus.core.tracking.tracker import Tracker
 from tests.tracking.hands import CAMERA, RIGID, blobs, calibration, swing
 
@@ -51,9 +51,8 @@ def test_hand_crop_waiting_frame_uses_region_of_its_time() -> None:
 
 def test_hand_crop_depth_is_lossless_and_smaller(tmp_path: Path) -> None:
     frame, area = noisy(np.random.default_rng(2)), compute_hand_region(tracked(), CAMERA, WRIST6)
-    writer = HandCropWriter(
-        RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", CAMERA, True, None, 30.0, {})), lambda _: area
-    )
+    info = SourceInfo("x", CAMERA, True, None, 30.0, {})
+    writer = RawWriter(tmp_path / "s.carpusraw", info, crop=lambda whole: mask_outside(whole, area))
     writer.append_frame(frame)
     writer.close()
     (back,) = RawRecording(tmp_path / "s.carpusraw").frames()

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.calibration.calibrate import CalibrationSettings
 from carpus.core.model.errors import SmoothingFailed
 from carpus.core.pipeline import smoothing
 from carpus.core.pipeline.smoothing import ChunkedSmoother, SmoothingProcess, TrackedHand

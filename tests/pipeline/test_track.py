@@ -12,9 +12,9 @@ import h5py
 import numpy as np
 import pytest
 
+from carpus.core.calibration.calibrate import CalibrationSettings
 from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.image_codec import encode_color, encode_depth
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.files.tum import DEPTH_UNIT_M, TumFolder

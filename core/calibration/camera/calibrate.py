@@ -8,8 +8,10 @@ dv shows on a tilted board only.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -20,12 +22,16 @@ from carpus.core.calibration.camera.board_views import (
     ViewCoverage,
     assess_views,
 )
+from carpus.core.capture.calibrated_source import new_calibration_path
+from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.model.camera import Camera
+from carpus.core.model.dates import to_iso
 from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar
 from carpus.core.model.phrase import phrase
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
+from carpus.core.platform.durable import write_fault
 
 MAX_REGISTRATION_ERROR_PX = 2.0
 """With a larger error depth is read beside the markers."""
@@ -305,3 +311,39 @@ def format_calibration(calibration: CameraCalibration) -> list[str]:
     )
     error = f"{format_rounded(distance_px, 1)} ± {format_rounded(depth.registration_sd_px, 1)} px"
     return [*out, f"{depth.sentence()} Scale {scale}, {shift}", f"Colour and depth: {error} apart ({judged})"]
+
+
+def to_stored_calibration(
+    calibration: CameraCalibration, serial: str, when: datetime, source_settings: Mapping[str, str] | None = None
+) -> StoredCalibration:
+    """Return the values that are stored of a calibration.
+
+    ``source_settings``: depth that was corrected already is included.
+    """
+    scale, offset_m = (1.0, 0.0) if calibration.depth is None else (calibration.depth.scale, calibration.depth.offset_m)
+    before = source_settings or {}
+    old_scale = float(before.get("depth_scale_corrected", 1.0))
+    old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
+    found = calibration.intrinsics
+    offset_m = old_scale * offset_m + old_offset_m
+    error_px, views = found.reprojection_error_px, len(found.used_views)
+    return StoredCalibration(serial, to_iso(when), old_scale * scale, offset_m, error_px, views)
+
+
+def write_calibration(path: Path, calibration: CameraCalibration, stored: StoredCalibration) -> Path:
+    """Write the camera file. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as cause:
+        raise write_fault(path, cause) from cause
+    registered = None if calibration.depth is None else calibration.depth.is_registered
+    name = stored.serial or "carpus"
+    camera = replace(calibration.intrinsics.camera, sensor=calibration.previous_camera.sensor)
+    write_camera_info(path, camera, camera_name=name, registered=registered, calibration=stored)
+    return path
+
+
+def save_calibration(data_folder: Path, calibration: CameraCalibration, stored: StoredCalibration) -> Path:
+    """Save it for its camera; earlier ones stay."""
+    when = datetime.fromisoformat(stored.calibrated)
+    return write_calibration(new_calibration_path(data_folder, stored.serial, when), calibration, stored)

@@ -24,15 +24,8 @@ from typing import Any
 
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.video_mode import Lens, Sensor, VideoMode
-from carpus.core.model.errors import (
-    CameraBusy,
-    CameraLost,
-    CameraMismatch,
-    CameraMissing,
-    CameraPermission,
-    CarpusFault,
-    DriverFailed,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.child_process import end_with_owner
 
@@ -152,7 +145,7 @@ class StreamWatchdog:
         """Raise a :class:`CarpusFault` if a sensor has been silent for too long."""
         for last_s in self._last_s.values():
             if time.monotonic() - last_s > STREAM_TIMEOUT_S:
-                raise CameraLost("", phrase("no frames for {seconds} s", seconds=f"{STREAM_TIMEOUT_S:g}"))
+                raise errors.CameraLost("", phrase("no frames for {seconds} s", seconds=f"{STREAM_TIMEOUT_S:g}"))
 
 
 class CaptureChannel:
@@ -210,7 +203,7 @@ class CaptureChannel:
         while not self.is_stopping:
             self.handle_commands(block=False)
             if unplugged.is_set():
-                raise CameraLost("", phrase("unplugged"))
+                raise errors.CameraLost("", phrase("unplugged"))
             forward_images(watchdog)
             watchdog.check()
             self.send_heartbeat()
@@ -292,13 +285,13 @@ def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] 
     if len(connected) > len(listed):
         for camera in connected:
             if not camera.can_open:
-                return CameraPermission("", str(camera.node))
+                return errors.CameraPermission("", str(camera.node))
         for camera in connected:
             if camera.is_claimed:
-                return CameraBusy("", camera.name)
+                return errors.CameraBusy("", camera.name)
         name = connected[0].name
-        return DriverFailed("", phrase("{name} is plugged in, but the driver does not see it", name=name))
-    return CameraMismatch("", ", ".join(listed)) if listed else CameraMissing("", "")
+        return errors.DriverFailed("", phrase("{name} is plugged in, but the driver does not see it", name=name))
+    return errors.CameraMismatch("", ", ".join(listed)) if listed else errors.CameraMissing("", "")
 
 
 def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CarpusFault:
@@ -308,8 +301,8 @@ def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CarpusFaul
     """
     text = reason.lower()
     if any(word in text for word in _BUSY_WORDS):
-        return CameraBusy("", reason)
+        return errors.CameraBusy("", reason)
     locked = [str(camera.node) for camera in connected if not camera.can_open]
     if locked or any(word in text for word in _PERMISSION_WORDS):
-        return CameraPermission("", locked[0] if locked else reason)
-    return DriverFailed("", reason)
+        return errors.CameraPermission("", locked[0] if locked else reason)
+    return errors.DriverFailed("", reason)

@@ -31,16 +31,9 @@ from carpus.core.capture.devices.openni2 import (
 )
 from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.model import errors
 from carpus.core.model.depth_sensor import PRIMESENSE
-from carpus.core.model.errors import (
-    CameraBusy,
-    CameraMissing,
-    CameraPermission,
-    CameraUnsuited,
-    CarpusFault,
-    DriverFailed,
-    DriverMissing,
-)
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.installation import Finding
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.child_process import ChildDiedError, call_in_child
@@ -60,10 +53,10 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
         mode = choose_mode(device.list_modes(sensor), wanted, SIZE_PX, FPS)
         if mode is None:
-            raise CameraUnsuited("", f"no {wanted.name} images")
+            raise errors.CameraUnsuited("", f"no {wanted.name} images")
         stream = streams[sensor] = device.create_stream(sensor)
         if stream.read_mode() != mode and not stream.set_mode(mode):
-            raise CameraUnsuited("", f"{sensor.name.lower()} {mode}")
+            raise errors.CameraUnsuited("", f"{sensor.name.lower()} {mode}")
         stream.set_int(StreamProperty.MIRRORING, 0)
     automatic = [
         streams[Sensor.COLOR].set_int(key, 1)
@@ -150,10 +143,10 @@ def choose_mode(
 def _open_error(failure: OpenNI2Error, seen: Sequence[UsbCamera]) -> CarpusFault:
     locked = [str(camera.node) for camera in seen if not camera.can_open]
     if locked:
-        return CameraPermission("", locked[0])
+        return errors.CameraPermission("", locked[0])
     if any(camera.is_claimed for camera in seen) or "USB interface" in failure.reason:
-        return CameraBusy("", failure.reason)
-    return (DriverFailed if seen else CameraMissing)("", failure.reason)
+        return errors.CameraBusy("", failure.reason)
+    return (errors.DriverFailed if seen else errors.CameraMissing)("", failure.reason)
 
 
 BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM: 2, PixelFormat.DEPTH_100_UM: 2}
@@ -164,7 +157,7 @@ def serve(channel: CaptureChannel, plan: CameraConfig) -> None:
     try:
         _serve(channel, plan)
     except OpenNI2Error as failure:
-        raise DriverFailed("", f"{failure.call}: {failure.reason}") from failure
+        raise errors.DriverFailed("", f"{failure.call}: {failure.reason}") from failure
 
 
 def _serve(channel: CaptureChannel, plan: CameraConfig) -> None:
@@ -231,7 +224,7 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
     """Check the OpenNI2 library; asking its version takes half a second in a process of its own."""
     try:
         load_library()
-    except DriverMissing as fault:
+    except errors.DriverMissing as fault:
         remedy = (
             phrase("Run: sudo apt-get install libopenni2-0")
             if sys.platform.startswith("linux")

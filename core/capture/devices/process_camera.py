@@ -22,23 +22,10 @@ from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, Captur
 from carpus.core.capture.frame_assembly import FrameAssembler, StreamLayout, camera_from_field_of_view, camera_from_lens
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
 from carpus.core.capture.video_mode import Sensor
+from carpus.core.model import errors
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
-from carpus.core.model.errors import (
-    CameraBusy,
-    CameraFileUnreadable,
-    CameraLost,
-    CameraMismatch,
-    CameraMissing,
-    CameraPermission,
-    CameraReturned,
-    CameraUnsuited,
-    CarpusFault,
-    DepthNotRegistered,
-    DriverFailed,
-    ExposureUnstable,
-    FramesEnlarged,
-)
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import Frame
 
@@ -54,7 +41,13 @@ MAX_CRASHES = 3
 """Restarts in a row without a single frame."""
 SETTLE_FRAMES = 45
 """Frames until automatic exposure has settled, when a lock has to be set again."""
-_RECOVERABLE_FAULTS = (CameraBusy, CameraLost, CameraMissing, CameraPermission, DriverFailed)
+_RECOVERABLE_FAULTS = (
+    errors.CameraBusy,
+    errors.CameraLost,
+    errors.CameraMissing,
+    errors.CameraPermission,
+    errors.DriverFailed,
+)
 """Faults that reconnecting or waiting can resolve."""
 
 
@@ -139,14 +132,16 @@ class ProcessCamera:
                 return
             except _RECOVERABLE_FAULTS as fault:
                 crashes = 1 if count else crashes + 1
-                if isinstance(fault, DriverFailed) and crashes >= MAX_CRASHES:
+                if isinstance(fault, errors.DriverFailed) and crashes >= MAX_CRASHES:
                     raise
-                lost = fault if isinstance(fault, CameraLost) else CameraLost(self._info.name, fault.detail)
+                lost = (
+                    fault if isinstance(fault, errors.CameraLost) else errors.CameraLost(self._info.name, fault.detail)
+                )
             self._notice(lost)
             away_s = self._reconnect(lost)
             if away_s is None:
                 return
-            self._notice(CameraReturned(self._info.name, f"{format_rounded(away_s)} s"))
+            self._notice(errors.CameraReturned(self._info.name, f"{format_rounded(away_s)} s"))
 
     def close(self) -> None:
         """Release the camera; may be called twice, and while another thread waits for a frame."""
@@ -179,7 +174,7 @@ class ProcessCamera:
                 elif report is None or report is Signal.ENDED:
                     return
             if not is_held:
-                self._notice(ExposureUnstable(self._info.name))
+                self._notice(errors.ExposureUnstable(self._info.name))
             for frame in frames:
                 self._last_frame_s = time.monotonic()
                 if self._frames_to_relock:  # a reconnected camera has lost its lock; its automatic settles first
@@ -210,16 +205,16 @@ class ProcessCamera:
                 if _format_camera(opened) != _format_camera(self._opened) or opened.modes != self._opened.modes:
                     shown = ", ".join(f"{sensor.name.lower()} {mode}" for sensor, mode in opened.modes.items())
                     found = _format_camera(opened) + ("" if opened.modes == self._opened.modes else f": {shown}")
-                    raise CameraMismatch(_format_camera(self._opened), found)
+                    raise errors.CameraMismatch(_format_camera(self._opened), found)
                 self._opened = opened
                 away_s = time.monotonic() - self._last_frame_s
                 self._assembler.restart(_build_layout(opened), first.timestamp_us, round(away_s * 1e6))
                 self._frames_to_relock = SETTLE_FRAMES if self._is_exposure_locked else 0
                 return time.monotonic() - start_s
             except _RECOVERABLE_FAULTS as fault:
-                if isinstance(fault, CameraMismatch) and fault.detail != other:
+                if isinstance(fault, errors.CameraMismatch) and fault.detail != other:
                     other = fault.detail
-                    self._notice(CameraMismatch(_format_camera(self._opened), other))
+                    self._notice(errors.CameraMismatch(_format_camera(self._opened), other))
                 if time.monotonic() - start_s > self._patience_s:
                     raise lost from None
                 self._closing.wait(RETRY_S)
@@ -243,11 +238,11 @@ class ProcessCamera:
         else:
             found = camera_from_field_of_view(layout.size_px, opened.field_of_view_rad)
         if found is None:
-            raise CameraFileUnreadable(name, "for images of another size: {}x{}".format(*layout.size_px))
+            raise errors.CameraFileUnreadable(name, "for images of another size: {}x{}".format(*layout.size_px))
         if opened.settings.get("registered") == "no":
-            self._notice(DepthNotRegistered(name))
+            self._notice(errors.DepthNotRegistered(name))
         if layout.format_enlargement:
-            self._notice(FramesEnlarged(name, layout.format_enlargement))
+            self._notice(errors.FramesEnlarged(name, layout.format_enlargement))
         settings = {**opened.settings, "mirrored": "turned back" if opened.mirrored else "no"}
         focal_px = math.nan if opened.lens is None else opened.lens.fx_px
         seen = replace(found, sensor=self._find_sensor(opened.settings, focal_px))
@@ -272,5 +267,5 @@ def _build_layout(opened: DeviceOpened) -> StreamLayout:
         opened.depth_unit_m,
     )
     if layout.describe_size_mismatch():
-        raise CameraUnsuited(opened.settings.get("camera", "camera"), layout.describe_size_mismatch())
+        raise errors.CameraUnsuited(opened.settings.get("camera", "camera"), layout.describe_size_mismatch())
     return layout

@@ -30,14 +30,8 @@ from carpus.core.capture.devices.capture_child import (
 from carpus.core.capture.devices.color_lock import ColorLock, ColorOptions
 from carpus.core.capture.devices.usb_devices import find_usb_cameras
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
+from carpus.core.model import errors
 from carpus.core.model.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
-from carpus.core.model.errors import (
-    CameraUnsuited,
-    DriverFailed,
-    DriverMissing,
-    RecordingDamaged,
-    RecordingUnsupported,
-)
 from carpus.core.model.phrase import phrase
 
 PACKAGE = "pyrealsense2"
@@ -54,7 +48,7 @@ def import_sdk() -> Any:
     try:
         import pyrealsense2
     except ImportError as cause:
-        raise DriverMissing(PACKAGE, str(cause)) from cause
+        raise errors.DriverMissing(PACKAGE, str(cause)) from cause
     return pyrealsense2
 
 
@@ -118,9 +112,9 @@ def choose_streams(rs: Any, device: Any) -> RealsenseStreams:
     ]
     if not fitting:
         size = {"width": width, "height": height}
-        raise CameraUnsuited("", phrase("no colour images of {width} × {height} pixels", **size))
+        raise errors.CameraUnsuited("", phrase("no colour images of {width} × {height} pixels", **size))
     if not depths:
-        raise CameraUnsuited("", phrase("no depth"))
+        raise errors.CameraUnsuited("", phrase("no depth"))
     color = max(fitting, key=lambda pair: nearness(pair, SIZE_PX))
     return _group_by_sensor([color, max(depths, key=lambda pair: nearness(pair, DEPTH_SIZE_PX))])
 
@@ -268,7 +262,7 @@ def serve(channel: CaptureChannel, plan: CameraConfig | Path) -> None:
     except RuntimeError as failure:  # all that the library raises
         reason = " ".join(str(failure).split())
         if isinstance(plan, Path):
-            raise DriverFailed("", reason) from failure
+            raise errors.DriverFailed("", reason) from failure
         raise camera_open_error(reason, find_usb_cameras(plan.models)) from failure
 
 
@@ -306,10 +300,10 @@ def _serve_recording(rs: Any, channel: CaptureChannel, path: Path) -> None:
         readable = [pair for pair in colors if pair[1].format() in (rs.format.rgb8, rs.format.bgr8)]
         if not readable:
             form = f"colour as {colors[0][1].format().name}" if colors else "no colour frames"
-            raise RecordingUnsupported("", form)
+            raise errors.RecordingUnsupported("", form)
         streams = _group_by_sensor([readable[0], *depths[:1]])
     except RuntimeError as failure:
-        raise RecordingDamaged("", " ".join(str(failure).split())) from failure
+        raise errors.RecordingDamaged("", " ".join(str(failure).split())) from failure
     channel.retain(playback)
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
     images = _RealSenseImages(rs, channel, streams, describe_device(rs, playback, streams), drops_oldest=False)
@@ -322,10 +316,10 @@ def _serve_recording(rs: Any, channel: CaptureChannel, path: Path) -> None:
             last_s = time.monotonic()
         elif is_stopped:
             if not images.has_reported:
-                raise RecordingDamaged("", phrase("no frames"))
+                raise errors.RecordingDamaged("", phrase("no frames"))
             return
         elif time.monotonic() - last_s > FILE_SILENCE_S:
-            raise RecordingDamaged("", phrase("no frames for {seconds} s", seconds=f"{FILE_SILENCE_S:g}"))
+            raise errors.RecordingDamaged("", phrase("no frames for {seconds} s", seconds=f"{FILE_SILENCE_S:g}"))
         channel.send_heartbeat()
 
 

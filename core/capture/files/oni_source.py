@@ -31,20 +31,8 @@ from carpus.core.capture.frame_assembly import (
 )
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
 from carpus.core.capture.video_mode import PixelFormat, Sensor
-from carpus.core.model.errors import (
-    CameraFileUnreadable,
-    CarpusFault,
-    DamagedFramesExcluded,
-    DepthNotRegistered,
-    FramesEnlarged,
-    RecordingDamaged,
-    RecordingEmpty,
-    RecordingMissing,
-    RecordingUnreadable,
-    RecordingUnsupported,
-    RegistrationAssumed,
-    TimesUnordered,
-)
+from carpus.core.model import errors
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import SIMULATED, Frame
 
@@ -146,12 +134,12 @@ def read_contents(path: Path) -> OniContents:
         The file cannot be played.
     """
     if not path.is_file():
-        raise RecordingMissing(path)
+        raise errors.RecordingMissing(path)
     try:
         with FileIO(path) as file:
             return _ContentsReader(path, file).read()
     except OSError as cause:
-        raise RecordingUnreadable(path, cause.strerror or "") from cause
+        raise errors.RecordingUnreadable(path, cause.strerror or "") from cause
 
 
 class _ContentsReader:
@@ -167,10 +155,10 @@ class _ContentsReader:
     def read(self) -> OniContents:
         head = self._file.read(oni.FILE_HEADER.size)
         if len(head) < oni.FILE_HEADER.size or head[:4] != oni.FILE_MAGIC:
-            raise RecordingUnreadable(self._path, phrase("not an .oni file"))
+            raise errors.RecordingUnreadable(self._path, phrase("not an .oni file"))
         _, *version, _, _ = oni.FILE_HEADER.unpack(head)
         if not oni.OLDEST_VERSION <= tuple(version) <= oni.FILE_VERSION:
-            raise RecordingUnsupported(self._path, "format version " + ".".join(map(str, version)))
+            raise errors.RecordingUnsupported(self._path, "format version " + ".".join(map(str, version)))
         if tuple(version) < oni.FILE_VERSION:
             self._header = oni.OLD_RECORD_HEADER
         for record in self._read_records():
@@ -181,7 +169,7 @@ class _ContentsReader:
         return self._build_contents(".".join(map(str, version)))
 
     def _damage_error(self, what: str, position: int) -> CarpusFault:
-        return RecordingDamaged(self._path, phrase("{what}, at byte {position}", what=what, position=position))
+        return errors.RecordingDamaged(self._path, phrase("{what}, at byte {position}", what=what, position=position))
 
     def _read_records(self) -> Iterator[_Record]:
         """Yield all records up to END; raises if the chain breaks."""
@@ -238,7 +226,7 @@ class _ContentsReader:
             raise self._damage_error("two streams of one name", record.position)
         if kind in _CODECS and codec not in _CODECS[kind]:
             shown = codec.decode("ascii", "replace")
-            raise RecordingUnsupported(
+            raise errors.RecordingUnsupported(
                 self._path, phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name)
             )
         self._nodes[record.node] = _Node(NodeType(kind), codec) if kind in _CODECS else None
@@ -250,7 +238,7 @@ class _ContentsReader:
         if len(data) != size:
             raise self._damage_error(f"property {name} of the wrong size", record.position)
         if node.images and name in _CONSTANT_PROPERTIES and node.properties.get(name) != data:
-            raise RecordingUnsupported(self._path, phrase("{name} changes within the file", name=name))
+            raise errors.RecordingUnsupported(self._path, phrase("{name} changes within the file", name=name))
         node.properties[name] = data
 
     def _index_image(self, node: _Node, record: _Record) -> None:
@@ -261,7 +249,7 @@ class _ContentsReader:
         if time_us > MAX_TIME_US:
             raise self._damage_error("a picture later than the recording's end", record.position)
         if time_us <= last_us:
-            raise TimesUnordered(
+            raise errors.TimesUnordered(
                 self._path, phrase("{value} frame {number}", value=node.kind.name.lower(), number=number)
             )
         position = record.position + self._header.size + len(record.fields)
@@ -273,11 +261,11 @@ class _ContentsReader:
             for kind in (NodeType.IMAGE, NodeType.DEPTH)
         )
         if not images:
-            raise RecordingUnsupported(self._path, phrase("no colour frames"))
+            raise errors.RecordingUnsupported(self._path, phrase("no colour frames"))
         if len(images) > 1 or len(depths) > 1:
-            raise RecordingUnsupported(self._path, phrase("more than one camera"))
+            raise errors.RecordingUnsupported(self._path, phrase("more than one camera"))
         if not images[0].images:
-            raise RecordingEmpty(self._path)
+            raise errors.RecordingEmpty(self._path)
         try:
             color = self._build_stream(images[0])
             depth = self._build_stream(depths[0]) if depths and depths[0].images else None
@@ -291,11 +279,11 @@ class _ContentsReader:
         if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
             raise self._damage_error(f"frames of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
         if any(properties.get(oni.CROPPING, b"")[:4]):
-            raise RecordingUnsupported(self._path, phrase("cropped frames"))
+            raise errors.RecordingUnsupported(self._path, phrase("cropped frames"))
         if pixel_format not in _FORMATS[node.kind]:
             name = next((each.name for each in PixelFormat if each == pixel_format), str(pixel_format))
             is_depth = node.kind == NodeType.DEPTH
-            raise RecordingUnsupported(
+            raise errors.RecordingUnsupported(
                 self._path, phrase("depth as {name}", name=name) if is_depth else phrase("colour as {name}", name=name)
             )
         view: tuple[float, float] | None = None
@@ -344,7 +332,7 @@ class OniSource:
         try:
             with self._path.open("rb") as file:
                 if read_file_identity(self._path) != self._contents.identity:
-                    raise RecordingDamaged(self._path, phrase("the file changes while it is read"))
+                    raise errors.RecordingDamaged(self._path, phrase("the file changes while it is read"))
                 # stream and index of each image in the order of the file
                 places = [
                     (position, sensor, place)
@@ -360,7 +348,7 @@ class OniSource:
                         arrived[sensor] += 1
                         yield from takes[sensor](int(stream.timestamp_us[place]), int(stream.number[place]), picture)
         except OSError as cause:
-            raise RecordingDamaged(self._path, cause.strerror or phrase("cannot be opened")) from cause
+            raise errors.RecordingDamaged(self._path, cause.strerror or phrase("cannot be opened")) from cause
         yield from assembler.finish()
         names = {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
         counts = [
@@ -369,7 +357,7 @@ class OniSource:
             if arrived[sensor] < len(stream)
         ]
         if counts:
-            self._notice(DamagedFramesExcluded(self._path, ", ".join(counts)))
+            self._notice(errors.DamagedFramesExcluded(self._path, ", ".join(counts)))
 
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
@@ -381,7 +369,7 @@ class OniSource:
         file.seek(int(stream.position[place]))
         data = file.read(size)
         if len(data) < size:
-            raise RecordingDamaged(self._path, phrase("the file changes while it is read"))
+            raise errors.RecordingDamaged(self._path, phrase("the file changes while it is read"))
         shape = (stream.height_px, stream.width_px)
         if stream is self._contents.depth:
             return decode_depth(data, stream.codec.encode(), shape)
@@ -404,8 +392,8 @@ class OniSource:
                 detail = (
                     f"for pictures of {camera_info.camera.width_px}x{camera_info.camera.height_px}, these are {size}"
                 )
-                raise CameraFileUnreadable(sidecar_path(self._path), detail)
-            raise RecordingUnsupported(self._path, phrase("no intrinsics for frames of {size}", size=size))
+                raise errors.CameraFileUnreadable(sidecar_path(self._path), detail)
+            raise errors.RecordingUnsupported(self._path, phrase("no intrinsics for frames of {size}", size=size))
         settings = {"format": f".oni {contents.version}", "color": _format_stream(contents, "color")}
         if contents.depth is not None:
             settings["depth"] = _format_stream(contents, "depth")
@@ -413,7 +401,7 @@ class OniSource:
         settings["mirrored"] = "turned back" if layout.color_mirrored else "no"
         if layout.format_enlargement:
             settings["enlarged"] = layout.format_enlargement
-            self._notice(FramesEnlarged(self._path, layout.format_enlargement))
+            self._notice(errors.FramesEnlarged(self._path, layout.format_enlargement))
         if camera_info is not None and camera_info.simulated:
             settings[SIMULATED] = "yes"
         has_depth, count = contents.depth is not None, len(contents.color)
@@ -422,10 +410,10 @@ class OniSource:
     def _resolve_registration(self, camera_info: bool | None, answer: bool | None) -> str:
         registered = camera_info if camera_info is not None else answer
         if registered is None:
-            self._notice(RegistrationAssumed(self._path))
+            self._notice(errors.RegistrationAssumed(self._path))
             return "assumed"
         if not registered:
-            self._notice(DepthNotRegistered(self._path))
+            self._notice(errors.DepthNotRegistered(self._path))
         return "yes" if registered else "no"
 
 
@@ -440,7 +428,7 @@ def _build_layout(contents: OniContents, camera_info: CameraInfo | None) -> Stre
         DEPTH_UNIT_M[depth.pixel_format] if depth else 1e-3,
     )
     if layout.describe_size_mismatch():
-        raise RecordingUnsupported(contents.path, layout.describe_size_mismatch())
+        raise errors.RecordingUnsupported(contents.path, layout.describe_size_mismatch())
     return layout
 
 

@@ -16,7 +16,7 @@ import re
 import struct
 import time
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -34,17 +34,9 @@ from carpus.core.capture.files.image_codec import (
     pack_tiles,
 )
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
+from carpus.core.model import errors
 from carpus.core.model.camera import DISTORTION_COEFFICIENT_COUNTS, Camera
 from carpus.core.model.depth_sensor import ASSUMED_SENSOR, parse_sensor
-from carpus.core.model.errors import (
-    DamagedFramesExcluded,
-    FrameSizeChanged,
-    OutputExists,
-    RecordingDamaged,
-    RecordingEmpty,
-    RecordingMissing,
-    RecordingUnreadable,
-)
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import ByteImage, DepthImage, Frame, Region
 from carpus.core.platform.durable import FileWriter, open_private, write_fault
@@ -69,20 +61,30 @@ _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16
 
 
 class RawWriter(FileWriter):
-    """Writer of one raw recording: a context manager, or ended by :meth:`close`; synchronised twice a second."""
+    """Writer of one raw recording: a context manager, or ended by :meth:`close`; synchronised twice a second.
 
-    def __init__(self, path: Path, info: SourceInfo, *, lossless: bool = False) -> None:
+    ``crop`` is applied to each frame before it is stored.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        info: SourceInfo,
+        *,
+        lossless: bool = False,
+        crop: Callable[[Frame], Frame] = lambda frame: frame,
+    ) -> None:
         self._path = path
         self._synced_at_s = time.monotonic()
         self._info = info
-        self._lossless = lossless
+        self._lossless, self._crop = lossless, crop
         self._depth_unit_m: float | None = None
         self._count = 0
         self._end = 0
         try:
             self._file: BinaryIO | None = open(path, "x+b", opener=open_private)  # noqa: SIM115  # closed by close
         except FileExistsError as cause:
-            raise OutputExists(path) from cause
+            raise errors.OutputExists(path) from cause
         except OSError as cause:
             raise write_fault(path, cause) from cause
         self._write(_START.pack(MAGIC, VERSION))
@@ -96,6 +98,7 @@ class RawWriter(FileWriter):
 
     def append_frame(self, frame: Frame) -> None:
         """Append one frame: depth lossless, colour as JPEG 95 or lossless. Times must rise."""
+        frame = self._crop(frame)
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
             info, camera = self._info, self._info.camera
@@ -211,7 +214,7 @@ class RawRecording:
 
     def __init__(self, path: Path, *, notice: NoticeHandler = ignore_notice) -> None:
         if not path.is_file():
-            raise RecordingMissing(path)
+            raise errors.RecordingMissing(path)
         self._path = path
         self._notice = notice
         try:
@@ -219,9 +222,9 @@ class RawRecording:
                 head, self._entries, done, self._surplus_bytes = _build_index(path, file)
                 header = b"" if head is None else _read_payload(file, head)
         except OSError as cause:
-            raise RecordingUnreadable(path, cause.strerror or "") from cause
+            raise errors.RecordingUnreadable(path, cause.strerror or "") from cause
         if not self._entries:
-            raise RecordingEmpty(path)
+            raise errors.RecordingEmpty(path)
         self.is_complete = done is not None
         self._count = max(entry.number for entry in self._entries) + 1 if done is None else done.number
         self._times_s = np.array([entry.timestamp_s for entry in self._entries])
@@ -250,7 +253,7 @@ class RawRecording:
             )
         except (KeyError, TypeError, ValueError, AttributeError, OverflowError, RecursionError) as cause:
             detail = phrase("damaged header, {count} frames present", count=len(self._entries))
-            raise RecordingUnreadable(path, detail) from cause
+            raise errors.RecordingUnreadable(path, detail) from cause
 
     @property
     def info(self) -> SourceInfo:
@@ -278,7 +281,7 @@ class RawRecording:
                 if entry.depth_size:
                     depth = TiledImage(self._path, pictures[entry.color_size :], _NO_DEPTH, decode_depth)
                 if color.size_px != size_px or (depth is not None and depth.size_px != size_px):
-                    raise FrameSizeChanged(self._path)
+                    raise errors.FrameSizeChanged(self._path)
                 yield LazyFrame(
                     index,
                     entry.timestamp_s,
@@ -291,11 +294,13 @@ class RawRecording:
         lost = max(left_out, self._count - index)
         if lost:
             self._notice(
-                DamagedFramesExcluded(self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count))
+                errors.DamagedFramesExcluded(
+                    self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count)
+                )
             )
         if self._surplus_bytes:
             detail = phrase("{count} bytes after the end of the recording", count=self._surplus_bytes)
-            self._notice(RecordingDamaged(self._path, detail))
+            self._notice(errors.RecordingDamaged(self._path, detail))
 
     def load_color(self, timestamp_s: float) -> ByteImage | None:
         """Return the colour image at a time; None if it was not stored or is damaged."""
@@ -337,10 +342,10 @@ def _build_index(
     file.seek(0)
     start = file.read(_START.size)
     if len(start) < _START.size or not start.startswith(MAGIC):
-        raise RecordingUnreadable(path, phrase("not a raw recording"))
+        raise errors.RecordingUnreadable(path, phrase("not a raw recording"))
     version = _START.unpack(start)[1]
     if version != VERSION:
-        raise RecordingUnreadable(
+        raise errors.RecordingUnreadable(
             path,
             phrase(
                 "format version {version}, but this version of Carpus reads {newest}", version=version, newest=VERSION

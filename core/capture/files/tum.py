@@ -19,23 +19,9 @@ import numpy as np
 from carpus.core.capture.camera_info import CAMERA_FILE, CameraInfo, read_camera_info, rescale_camera, write_camera_info
 from carpus.core.capture.files.image_codec import encode_color, encode_depth, read_color, read_depth
 from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice, is_simulated
+from carpus.core.model import errors
 from carpus.core.model.camera import DEFAULT_CAMERA, Camera
-from carpus.core.model.errors import (
-    CameraFileUnreadable,
-    CarpusFault,
-    DamagedFramesExcluded,
-    DepthMissing,
-    FrameDamaged,
-    FrameSizeChanged,
-    InitialFrameDamaged,
-    OutputExists,
-    RecordingEmpty,
-    RecordingMissing,
-    RecordingUnreadable,
-    RepeatedTimesExcluded,
-    TimesUnordered,
-    UnitAssumed,
-)
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import SIMULATED, DepthImage, FloatArray, Frame
 from carpus.core.platform.durable import FileWriter, open_private, write_fault
@@ -99,27 +85,27 @@ class TumFolder:
         notice: NoticeHandler = ignore_notice,
     ) -> None:
         if not folder.exists():
-            raise RecordingMissing(folder)
+            raise errors.RecordingMissing(folder)
         if not folder.is_dir():
-            raise RecordingUnreadable(folder, phrase("not a folder"))
+            raise errors.RecordingUnreadable(folder, phrase("not a folder"))
         self._read_ahead = read_ahead
         self._folder, self._skip_damaged, self._notice = folder, skip_damaged, notice
         color, color_gone = _check_files(_read_list(folder / COLOR_LIST, notice), skip_damaged, first=True)
         if not color:
-            raise RecordingEmpty(folder, phrase("no frame in {color_list}", color_list=COLOR_LIST))
+            raise errors.RecordingEmpty(folder, phrase("no frame in {color_list}", color_list=COLOR_LIST))
         depth_list = folder / DEPTH_LIST
         depth_entries = _read_list(depth_list, notice) if depth_list.exists() else []
         if requires_depth and not depth_entries:
             missing = phrase("no frame in {depth_list}", depth_list=DEPTH_LIST)
-            raise DepthMissing(folder, missing if depth_list.exists() else f"no {DEPTH_LIST}")
+            raise errors.DepthMissing(folder, missing if depth_list.exists() else f"no {DEPTH_LIST}")
         depth, depth_gone = _check_files(depth_entries, skip_damaged, first=False)
         if color_gone or depth_gone:
-            notice(DamagedFramesExcluded(folder, _format_counts(color_gone, depth_gone, "missing")))
+            notice(errors.DamagedFramesExcluded(folder, _format_counts(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
         partner = pair_by_time(color_s, np.array([time_s for time_s, _ in depth]))
         if requires_depth and not any(index is not None for index in partner):
             limit = f"{PAIRING_LIMIT_S * 1000.0:.0f}"
-            raise DepthMissing(
+            raise errors.DepthMissing(
                 folder,
                 phrase("no depth frame within {pairing_limit_s} ms of a colour frame", pairing_limit_s=limit),
             )
@@ -129,8 +115,8 @@ class TumFolder:
         )
         try:
             first = read_color(self.stored_frames[0].color)
-        except FrameDamaged as fault:
-            raise InitialFrameDamaged(fault.subject, fault.detail) from fault
+        except errors.FrameDamaged as fault:
+            raise errors.InitialFrameDamaged(fault.subject, fault.detail) from fault
         self._size = (first.shape[1], first.shape[0])
         camera_info = _load_camera(folder, *self._size)
         self._depth_unit_m = camera_info.depth_unit_m or _estimate_depth_unit_m(
@@ -179,7 +165,7 @@ class TumFolder:
                 yield replace(frame, index=number, dropped_before=frame.dropped_before + missing)
                 number, missing = number + 1, 0
         if color_lost or depth_lost:
-            self._notice(DamagedFramesExcluded(self._folder, _format_counts(color_lost, depth_lost, "damaged")))
+            self._notice(errors.DamagedFramesExcluded(self._folder, _format_counts(color_lost, depth_lost, "damaged")))
 
     def _load_frame(self, index: int) -> _DecodedFrame:
         """Return a frame, or None if its colour image is skipped, and whether its depth image was."""
@@ -187,11 +173,11 @@ class TumFolder:
             return self._read_frame(index, with_depth=True), False
         try:
             return self._read_frame(index, with_depth=True), False
-        except FrameDamaged:
+        except errors.FrameDamaged:
             pass
         try:
             return self._read_frame(index, with_depth=False), True
-        except FrameDamaged:
+        except errors.FrameDamaged:
             return None, False
 
     def _prefetch_frames(self, bound: int) -> Iterator[_DecodedFrame]:
@@ -220,7 +206,7 @@ class TumFolder:
     def _check_size(self, path: Path, shape: tuple[int, ...]) -> None:
         width, height = self._size
         if shape[:2] != (height, width):
-            raise FrameSizeChanged(
+            raise errors.FrameSizeChanged(
                 path,
                 phrase(
                     "{shape} x {shape2} pixels, {width} x {height} before",
@@ -273,13 +259,13 @@ def _estimate_depth_unit_m(folder: Path, stored: Sequence[StoredFrame], camera: 
         assert frame.depth is not None
         try:
             counts = read_depth(frame.depth)
-        except FrameDamaged:  # reported when it is read
+        except errors.FrameDamaged:  # reported when it is read
             continue
         if (counts > 0).any():
             middle, nearest_m = float(np.median(counts[counts > 0])), camera.sensor.nearest_m
             if middle * DEPTH_UNIT_M >= _MIN_DISTANCE_SHARE * nearest_m or middle * _MILLIMETRE_M < nearest_m:
                 return DEPTH_UNIT_M
-            notice(UnitAssumed(folder, phrase("depth in millimetres, not 5000 per metre")))
+            notice(errors.UnitAssumed(folder, phrase("depth in millimetres, not 5000 per metre")))
             return _MILLIMETRE_M
     return DEPTH_UNIT_M
 
@@ -292,11 +278,11 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError as cause:
-        raise RecordingUnreadable(path, phrase("missing")) from cause
+        raise errors.RecordingUnreadable(path, phrase("missing")) from cause
     except OSError as cause:
-        raise RecordingUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
+        raise errors.RecordingUnreadable(path, cause.strerror or phrase("cannot be opened")) from cause
     except UnicodeDecodeError as cause:
-        raise RecordingUnreadable(path, phrase("not a text file")) from cause
+        raise errors.RecordingUnreadable(path, phrase("not a text file")) from cause
     entries: list[_Entry] = []
     repeated = 0
     for number, line in enumerate(text.splitlines(), start=1):
@@ -308,7 +294,7 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
             repeated += 1
             continue
         if entries and time_s < entries[-1][0]:
-            raise TimesUnordered(
+            raise errors.TimesUnordered(
                 path,
                 phrase(
                     "line {number}: {time_s} s after {earlier} s",
@@ -319,11 +305,11 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
             )
         entries.append((time_s, picture, f"{path.name} line {number}"))
     if repeated:
-        notice(RepeatedTimesExcluded(path, str(repeated)))
+        notice(errors.RepeatedTimesExcluded(path, str(repeated)))
     step = float(np.median(np.diff([time_s for time_s, _, _ in entries]))) if len(entries) > 1 else 0.0
     for min_step, scale, unit in _TIME_UNITS:
         if step >= min_step:
-            notice(UnitAssumed(path, phrase("times in {unit}, not in seconds", unit=unit)))
+            notice(errors.UnitAssumed(path, phrase("times in {unit}, not in seconds", unit=unit)))
             return [(time_s * scale, picture, place) for time_s, picture, place in entries]
     return entries
 
@@ -335,9 +321,9 @@ def _check_files(entries: list[_Entry], skip_damaged: bool, *, first: bool) -> t
         if os.path.isfile(picture):  # noqa: PTH113  # and no name is too long
             found.append((time_s, picture))
         elif first and not found:
-            raise InitialFrameDamaged(picture, phrase("missing, {place}", place=place))
+            raise errors.InitialFrameDamaged(picture, phrase("missing, {place}", place=place))
         elif not skip_damaged:
-            raise FrameDamaged(picture, phrase("missing, {place}", place=place))
+            raise errors.FrameDamaged(picture, phrase("missing, {place}", place=place))
     return found, len(entries) - len(found)
 
 
@@ -353,7 +339,7 @@ def _parse_entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     except ValueError:
         time_s = math.nan
     if not math.isfinite(time_s) or not names:
-        raise RecordingUnreadable(
+        raise errors.RecordingUnreadable(
             path,
             phrase(
                 "line {number} is not a time and a file name: {content}", number=number, content=f"{content[:60]!r}"
@@ -362,7 +348,7 @@ def _parse_entry(path: Path, number: int, content: str) -> tuple[float, Path]:
     on_windows = PureWindowsPath(names[0])
     inside = PurePath(on_windows.as_posix())
     if inside.is_absolute() or on_windows.drive or on_windows.root or ".." in inside.parts or "\0" in names[0]:
-        raise RecordingUnreadable(
+        raise errors.RecordingUnreadable(
             path,
             phrase(
                 "line {number} names a file outside the folder: {content}", number=number, content=f"{content[:60]!r}"
@@ -377,14 +363,14 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
     if not path.exists():
         camera = rescale_camera(DEFAULT_CAMERA, (width_px, height_px))
         if camera is None:
-            raise CameraFileUnreadable(
+            raise errors.CameraFileUnreadable(
                 path, phrase("missing, and there is no default camera for frames of {size}", size=size)
             )
         return CameraInfo(camera)
     info = read_camera_info(path)
     camera = info.camera
     if (camera.width_px, camera.height_px) != (width_px, height_px):
-        raise CameraFileUnreadable(
+        raise errors.CameraFileUnreadable(
             path,
             phrase(
                 "for {width_px} x {height_px} pixels, the frames have {size}",
@@ -395,7 +381,7 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
         )
     if info.mirrored or info.registered is False:
         wrong = "mirrored: true" if info.mirrored else "registered: false"
-        raise CameraFileUnreadable(path, phrase("{wrong}, not supported for an image folder", wrong=wrong))
+        raise errors.CameraFileUnreadable(path, phrase("{wrong}, not supported for an image folder", wrong=wrong))
     return info
 
 
@@ -409,7 +395,7 @@ class TumWriter(FileWriter):
         try:
             path.mkdir(parents=True)
         except FileExistsError as cause:
-            raise OutputExists(path) from cause
+            raise errors.OutputExists(path) from cause
         except OSError as cause:
             raise write_fault(path, cause) from cause
         try:

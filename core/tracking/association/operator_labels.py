@@ -1,4 +1,4 @@
-"""Labels that a person gives to blobs while measuring, applied before association.
+"""Labels that a person gave to blobs, applied before association.
 
 A blob that is no marker is left out before blobs are associated; one that is a marker is associated as labelled. A blob
 is followed from frame to frame, so that its label goes on holding while it moves, and for a while after it went out of
@@ -18,8 +18,7 @@ from carpus.core.model.types import BoolArray, Detections, FloatArray, MarkerLab
 
 MAX_STEP_PX = 8.0  # no further a blob is followed from frame to frame
 RETURN_GATE_PX = 12.0  # so near to where it was, in the image or beside its marker, a blob that comes back is the same
-REJECTION_VALID_S = 60.0  # after that a blob that is no marker is asked about again, if there is still need to ask
-MAX_HIDDEN_S = 0.5  # where nobody will ask: out of sight for so long, what comes out there later may be a marker
+MAX_HIDDEN_S = 0.5  # out of sight for so long, what comes out there later may be a marker
 KEPT_FRAMES = 60  # in which a labelled blob is searched
 LABEL_TIMEOUT_S = 0.5  # so long a label waits for a frame that shows its blob
 SAME_POSITION_PX = 0.5  # a blob so near to the one that was followed is that blob
@@ -53,18 +52,14 @@ class RecentBlobs:
 class RejectedBlob:
     """A blob that a person said at ``time_s`` is not a marker, row ``marker`` of the protocol."""
 
-    def __init__(
-        self, marker: int, pixel: FloatArray, offset_px: FloatArray, time_s: float, *, is_asked_again: bool
-    ) -> None:
+    def __init__(self, marker: int, pixel: FloatArray, offset_px: FloatArray, time_s: float) -> None:
         self.marker = marker
-        self._pixel, self._offset_px, self._is_asked_again = pixel, offset_px, is_asked_again
-        self._labelled_s = self._seen_s = time_s
+        self._pixel, self._offset_px = pixel, offset_px
+        self._seen_s = time_s
         self._was_seen = True
 
     def is_valid(self, time_s: float) -> bool:
         """Return whether the rejection still holds."""
-        if self._is_asked_again:
-            return time_s - self._labelled_s <= REJECTION_VALID_S
         return time_s - self._seen_s <= MAX_HIDDEN_S
 
     def find(self, time_s: float, pixel: FloatArray, predicted_px: FloatArray, is_measured: BoolArray) -> int:
@@ -118,7 +113,6 @@ class _PendingLabel:
     """A label whose blobs were searched in vain ``since_s``, NaN for not yet."""
 
     label: MarkerLabel
-    is_asked_again: bool
     since_s: float = math.nan
 
 
@@ -141,25 +135,12 @@ class OperatorLabels:
         self._markers = markers
         self._recent = RecentBlobs()
         self._pending: list[_PendingLabel] = []
-        self._applied: list[MarkerLabel] = []
         self._rejected: list[RejectedBlob] = []
         self._is_measured = np.zeros(len(markers), dtype=bool)
 
-    def add(self, label: MarkerLabel, *, is_asked_again: bool = True) -> None:
-        """Add a label of a frame shown a moment ago, from the next frame on.
-
-        ``is_asked_again``: the person is asked again after a while; otherwise never.
-        """
-        self._pending.append(_PendingLabel(label, is_asked_again))
-
-    def pop_applied(self) -> list[MarkerLabel]:
-        """Return the labels applied since the last call, with the blobs as they lay in that frame."""
-        applied, self._applied = self._applied, []
-        return applied
-
-    def mark_applied(self, labelled: LabelledBlob) -> None:
-        """Note that a blob was associated as labelled."""
-        self._applied.append(labelled.label)
+    def add(self, label: MarkerLabel) -> None:
+        """Add a label of this or an earlier frame, from the next frame on."""
+        self._pending.append(_PendingLabel(label))
 
     def follow(self, measured_px: FloatArray) -> None:
         """Take the markers measured in a frame, (M, 2) NaN where not: they keep the blobs nearer to them."""
@@ -217,12 +198,8 @@ class OperatorLabels:
             for place in label.rejected_px:
                 pixel = np.array(place)
                 offset_px = pixel - predict_px()[marker]
-                self._rejected.append(
-                    RejectedBlob(marker, pixel, offset_px, timestamp_s, is_asked_again=one.is_asked_again)
-                )
+                self._rejected.append(RejectedBlob(marker, pixel, offset_px, timestamp_s))
             self._is_measured[marker] = False
-            if label.pixel is None:
-                self._applied.append(label)
         return first
 
     def _locate_label(self, label: MarkerLabel) -> MarkerLabel | None:

@@ -12,9 +12,13 @@ from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.tracking.association.association import is_jointly_compatible
 from carpus.core.tracking.association.palm_association import Measurements
 from carpus.core.tracking.digits.digit_association import (
+    MAX_SEEN,
     DigitScene,
     UpdatedDigits,
     associate_digits,
+    compute_disc_scale,
+    compute_tilts,
+    compute_visibility,
     find_far_digits,
     is_beyond_limits,
     remove_markers,
@@ -22,12 +26,6 @@ from carpus.core.tracking.digits.digit_association import (
 )
 from carpus.core.tracking.digits.digit_readout import DigitBase
 from carpus.core.tracking.digits.digit_search import MIN_DIGIT_MARKERS, search_digits
-from carpus.core.tracking.digits.disc_visibility import (
-    MAX_SEEN,
-    compute_disc_scale,
-    compute_tilts,
-    compute_visibility,
-)
 from carpus.core.tracking.digits.finger_model import FingerModel
 from carpus.core.tracking.digits.knuckle_flexion import (
     FLEXION_SLOT,

@@ -6,8 +6,7 @@ from datetime import datetime
 
 from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
 from carpus.core.calibration.camera.board_views import ViewCollector
-from carpus.core.calibration.camera.calibrate import calibrate_camera
-from carpus.core.calibration.camera.storage import save_calibration, to_stored_calibration
+from carpus.core.calibration.camera.calibrate import calibrate_camera, save_calibration, to_stored_calibration
 from carpus.core.model.errors import BoardNotVisible, BoardViewsTooSimilar
 from carpus.core.model.types import Frame
 from carpus.core.pipeline.live import LiveSession
