@@ -9,7 +9,6 @@ import math
 import os
 import signal
 import sys
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -18,15 +17,12 @@ from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 from carpus.core.formats.output_files import MACHINE_DIALECT, TableDialect, nan_to_none
 from carpus.core.model.errors import CameraUnknown
 from carpus.core.model.names import describe_known_names, find_similar_name
-from carpus.core.model.rounding import format_rounded
 
 if TYPE_CHECKING:
     from carpus.core.model.errors import CarpusFault
 
 
 _STOP_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
-SUMMARY_AFTER_S = 10.0
-"""Work that took this long ends with a line that states its speed."""
 
 
 def reopen_closed_streams() -> None:
@@ -103,26 +99,21 @@ class ShowProgress(Protocol):
 
 @contextmanager
 def progress_bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
-    """Show a progress bar on a terminal; after long work, print one line of summary."""
+    """Show a progress bar on a terminal."""
     from tqdm import tqdm  # as long to load as a tenth of the tracker
 
-    begin_s = time.monotonic()
-    last, note_now = 0, ""
+    note_now = ""
     with tqdm(desc=what, unit=unit, leave=False, disable=not sys.stderr.isatty()) as drawn:
 
         def show(done: int, total: int | None, note: str = "") -> None:
-            nonlocal last, note_now
-            drawn.total, last = total, done
+            nonlocal note_now
+            drawn.total = total
             if note != note_now:
                 note_now = note
                 drawn.set_postfix_str(note, refresh=False)
             drawn.update(done - drawn.n)
 
         yield show
-    seconds = time.monotonic() - begin_s
-    if last and seconds >= SUMMARY_AFTER_S:
-        behind = f", {note_now}" if note_now else ""
-        print_message(f"{what}, {last} {unit}s in {format_rounded(seconds)} s, {last / seconds:.3g} a second{behind}")
 
 
 def handle_stop_signals(action: Callable[[], object]) -> None:

@@ -36,49 +36,29 @@ if TYPE_CHECKING:
 
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
 """Written by people and by the window; the second overrides the first."""
-LAST_FOLDER_FILE = "last-data-folder.txt"
 
 TRACKING = ("detection", "calibration", "tracker")
 """Sections that configure tracking."""
 DATA_VARIABLE = "CARPUS_DATA"
 OBSOLETE = {
-    *(
-        f"live.{name}"
-        for name in (
-            "moved_stall_s", "told_stall_s", "recent_frames", "history_s", "row_bytes", "picture_bytes",
-            "stop_patience_s",
-        )
-    ),
-    "live.folder",
-    "report.agreement_limit_deg",
-    "report.retest_days",
-    "screen.keys",
-    *(
-        f"calibration.{name}"
-        for name in (
-            "still_px", "enough_frames", "pixel_sd_px", "pixel_stays_px", "same_disc_px", "least_discs",
-            "most_length_change", "candidates", "naming", "finger_order", "palm_names", "side", "odd_disc",
-            "registration", "back",
-        )
-    ),
-    *(
-        f"tracker.{name}"
-        for name in (
-            "holding", "finding", "readout", "doubt", "said", "shape_news", "shape_stale", "mode_dwell_s",
-            "unseen_scale", "rate_memory_s", "profiles", "shape_hidden", "mode_scales", "spread", "initial", "noise",
-            "association", "fingers", "tissue", "use_surface", "surface", "marker_radius_m",
-        )
-    ),
-    *(
-        f"detection.{name}"
-        for name in (
-            "small_radius_m", "paper_share", "darkest", "least_similarity", "region_sd", "depth_valid_share",
-            "depth_iqr_m", "slope_share", "edge_step_m", "edge_sd_m", "fewest_readings", "paper_low", "paper_high",
-            "fewest_rim", "fewest_core", "click_reach", "paper_reach", "learning_rounds", "fallback_radius_px",
-            "coarse", "skin_level", "paper_level", "usual_depth_m", "most_unsure_px", "stencil", "touching", "sampling",
-        )
-    ),
-}  # fmt: skip
+    f"{section}.{name}"
+    for section, names in {
+        "live": "folder moved_stall_s told_stall_s recent_frames history_s row_bytes picture_bytes stop_patience_s",
+        "report": "agreement_limit_deg retest_days",
+        "screen": "keys",
+        "updates": "folder",
+        "calibration": "still_px enough_frames pixel_sd_px pixel_stays_px same_disc_px least_discs most_length_change "
+        "candidates naming finger_order palm_names side odd_disc registration back",
+        "tracker": "holding finding readout doubt said shape_news shape_stale mode_dwell_s unseen_scale rate_memory_s "
+        "profiles shape_hidden mode_scales spread initial noise association fingers tissue use_surface surface "
+        "marker_radius_m",
+        "detection": "small_radius_m paper_share darkest least_similarity region_sd depth_valid_share depth_iqr_m "
+        "slope_share edge_step_m edge_sd_m fewest_readings paper_low paper_high fewest_rim fewest_core click_reach "
+        "paper_reach learning_rounds fallback_radius_px coarse skin_level paper_level usual_depth_m most_unsure_px "
+        "stencil touching sampling",
+    }.items()
+    for name in names.split()
+}
 """Settings and sections of earlier versions: accepted and ignored."""
 
 logger = logging.getLogger(__name__)
@@ -192,13 +172,6 @@ class PatientSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class UpdatesSettings:
-    """``folder`` with packages of ``make release``; empty to never look for updates."""
-
-    folder: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class WelcomeSettings:
     """``answered``: the offer of the first start was answered and is not shown again."""
 
@@ -219,7 +192,6 @@ class Settings:
     practice_system: PracticeSystemSettings = field(default_factory=PracticeSystemSettings)
     stream: StreamSettings = field(default_factory=StreamSettings)
     patient: PatientSettings = field(default_factory=PatientSettings)
-    updates: UpdatesSettings = field(default_factory=UpdatesSettings)
     first_start: WelcomeSettings = field(default_factory=WelcomeSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     tracking: Mapping[str, Values] = field(default_factory=dict, metadata=NOT_IN_FILE)
@@ -358,19 +330,6 @@ def _read_preferences(path: Path) -> dict[str, dict[str, Any]]:
     except SettingsInvalid:
         path.replace(path.with_name(f"{path.stem}.unusable{path.suffix}"))
         return {}
-
-
-def save_last_data_folder(data_folder: Path, folder: Path | None = None) -> Path | None:
-    """Save the data folder of this start; return that of the last one if it was another."""
-    path = (folder or settings_folder()) / LAST_FOLDER_FILE
-    before = ""
-    with suppress(OSError, UnicodeError):
-        before = path.read_text(encoding="utf-8")
-    if before != str(data_folder):
-        with suppress(OSError, CarpusFault):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            replace_text(path, str(data_folder))
-    return Path(before) if before not in ("", str(data_folder)) else None
 
 
 def _format_value(value: object) -> str:

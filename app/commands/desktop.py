@@ -16,11 +16,10 @@ from carpus.app.session_commands import log_folder_action
 from carpus.app.settings import (
     Settings,
     load_valid_settings,
-    save_last_data_folder,
     with_data_folder,
     with_saved_folder,
 )
-from carpus.core.model.errors import CarpusFault, DataFolderChanged, FolderInUse
+from carpus.core.model.errors import CarpusFault, FolderInUse
 from carpus.core.platform.durable import make_private_folder
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 
@@ -62,12 +61,9 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
     splash = appearance.show_splash(qt)
     loaded, told = load_valid_settings()
     settings = with_data_folder(loaded, data_folder)
-    usual = loaded.data_folder if loaded.data_folder.is_dir() else None
     is_reopened, patient_id = False, ""
     while True:
-        opened = _open_desktop(
-            qt, splash, settings, is_demo=is_demo, default_folder=usual, file=file, startup_faults=told
-        )
+        opened = _open_desktop(qt, splash, settings, is_demo=is_demo, file=file, startup_faults=told)
         if isinstance(opened, int):
             return opened
         desktop, alone = opened
@@ -81,7 +77,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
                 _finish_restore(desktop.library.folder)
         if not desktop.must_reopen:
             return code
-        settings, told, usual, file, is_reopened = desktop.preferences.settings, [], None, None, True
+        settings, told, file, is_reopened = desktop.preferences.settings, [], None, True
         del desktop, opened
         # delete all widgets, also hidden ones: they would be styled together with the new ones
         from PySide6.QtCore import QEvent
@@ -99,21 +95,16 @@ def _open_desktop(
     settings: Settings,
     *,
     is_demo: bool,
-    default_folder: Path | None,
     file: Path | None,
     startup_faults: Sequence[CarpusFault],
 ) -> tuple[Desktop, SingleInstance] | int:
-    """Build the desktop, on another data folder if a person chose one; return the exit code if there is none.
-
-    ``default_folder`` is the usual data folder, to say that this start has another one; None to say nothing.
-    """
+    """Build the desktop, on another data folder if a person chose one; return the exit code if there is none."""
     from carpus.app import compose
     from carpus.app.desktop import folder_window
     from carpus.app.desktop.log import show_uncaught_errors
     from carpus.app.desktop.single_instance import SingleInstance
     from carpus.app.desktop.window import close_on_signals
     from carpus.core.records.restoring import delete_unfinished, has_restored_folder
-    from carpus.core.records.store import create_reserve
 
     while True:
         alone = SingleInstance(settings.data_folder)
@@ -129,12 +120,7 @@ def _open_desktop(
                 _finish_restore(settings.data_folder)
                 continue
             delete_unfinished(settings.data_folder)
-            before = default_folder
-            if settings.run_folder is None:
-                before = None if is_demo else save_last_data_folder(settings.data_folder)
-            other = [] if before is None else [DataFolderChanged(settings.data_folder, str(before))]
-            desktop = compose.compose(qt, settings, is_demo=is_demo, startup_faults=[*other, *startup_faults])
-            create_reserve(settings.data_folder)
+            desktop = compose.compose(qt, settings, is_demo=is_demo, startup_faults=startup_faults)
         except CarpusFault as fault:
             alone.release()
             print_fault(fault)

@@ -53,18 +53,10 @@ class HandCalibrator:
     ) -> None:
         self._last_straight_fingers = last_straight_fingers
         self._frames, self._camera, self._settings, self._begin_tracking = frames, camera, settings, begin_tracking
-        self._side, self._protocol, self._last_length_mm = side, protocol, last_length_mm
+        self.side, self.protocol, self._last_length_mm = side, protocol, last_length_mm
         self._held_frames: Sequence[Frame] = ()
         self._candidates = Detections.none()
         self._outcomes: list[tuple[CalibrationOutcome, Sequence[Frame]]] = []
-
-    @property
-    def side(self) -> Side:
-        return self._side
-
-    @property
-    def protocol(self) -> MarkerProtocol:
-        return self._protocol
 
     @property
     def previous_straight_fingers(self) -> tuple[bool, ...]:
@@ -93,7 +85,7 @@ class HandCalibrator:
 
     def hand_area(self) -> FloatArray | None:
         """Return the corners (2, 2) of the box of all candidates; None if there are too few."""
-        if len(self._candidates) < len(self._protocol.palm):
+        if len(self._candidates) < len(self.protocol.palm):
             return None
         return np.stack((self._candidates.pixel.min(axis=0), self._candidates.pixel.max(axis=0)))
 
@@ -111,13 +103,13 @@ class HandCalibrator:
 
     def propose_labels(self, named: Mapping[str, FloatArray]) -> Mapping[str, LabelProposal]:
         """Propose labels for the candidates of the frozen frame."""
-        blobs, markers = self._candidates, self._protocol.markers
+        blobs, markers = self._candidates, self.protocol.markers
         known: dict[int, int] = {}
         for name, pixel in named.items():
             distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
             if distance.size and distance.min() < SAME_MARKER_PX:
                 known[markers.index(name)] = int(distance.argmin())
-        found = propose_labels(blobs, self._camera, self._side, self._protocol, known)
+        found = propose_labels(blobs, self._camera, self.side, self.protocol, known)
         return {
             name: LabelProposal(blobs.pixel[blob], _width_px(blobs, blob), bool(is_sure))
             for name, blob, is_sure in zip(markers, found.blob.tolist(), found.is_sure, strict=True)

@@ -59,7 +59,7 @@ class PreferencesController(QObject):
         """Connect to the settings screen; a demo saves nothing."""
         super().__init__(controller)
         self._is_demo = is_demo
-        self._controller, self._theme, self._settings = controller, theme, settings
+        self._controller, self._theme, self.settings = controller, theme, settings
         self._folder, self._resolve_theme = folder, resolve_theme
         self.find_language_obstacle: Callable[[], str] = str
         """Returns why the language cannot change now; empty if it can."""
@@ -77,28 +77,28 @@ class PreferencesController(QObject):
     def _create_flow(self) -> SettingsFlow:
         from carpus.ui.screens.settings.flow import SettingsFlow
 
-        settings, context = self._settings, self._controller.context
+        settings, context = self.settings, self._controller.context
         now = {name: getattr(getattr(settings, part), of) for name, (part, of) in SETTING_PATHS.items()}
         chosen = Preferences(data_folder=self._shown_folder, **now)
-        return SettingsFlow(context, chosen, settings.updates.folder, read_figures)
+        return SettingsFlow(context, chosen, read_figures)
 
     def _apply_start_mode(self) -> None:
-        self._controller.live.screen.recording.start_mode = self._settings.recording.start
+        self._controller.live.screen.recording.start_mode = self.settings.recording.start
 
     def apply(self, chosen: Preferences) -> None:
-        other_language = chosen.language != self._settings.screen.language
+        other_language = chosen.language != self.settings.screen.language
         if other_language and (why := self.find_language_obstacle()):
-            self.screen.revert_language(self._settings.screen.language, why)
+            self.screen.revert_language(self.settings.screen.language, why)
             return
-        before = settings = self._settings
+        before = settings = self.settings
         for name, (part, of) in SETTING_PATHS.items():
             changed = replace(getattr(settings, part), **{of: getattr(chosen, name)})
             settings = replace(settings, **{part: changed})
         if chosen.data_folder != self._shown_folder:
             self._shown_folder = chosen.data_folder
             settings = replace(settings, recording=replace(settings.recording, folder=chosen.data_folder))
-        self._settings = settings
-        self._theme.choose(self._resolve_theme(self._settings), chosen.text_scale)
+        self.settings = settings
+        self._theme.choose(self._resolve_theme(self.settings), chosen.text_scale)
         self._controller.navigator.show_research(on=chosen.research)
         if "live" in self._controller.navigator.flows:
             self._apply_start_mode()
@@ -109,29 +109,25 @@ class PreferencesController(QObject):
             self.language_chosen.emit()
 
     def _share_settings(self) -> None:
-        settings, controller = self._settings, self._controller
+        settings, controller = self.settings, self._controller
         controller.settings = replace(controller.settings, report=settings.report, stream=settings.stream)
         controller.context.report_settings = settings.report
 
     def choose_therapist(self, initials: str) -> None:
         """Apply and save who works now."""
-        self.save(report=replace(self._settings.report, therapist=initials))
+        self.save(report=replace(self.settings.report, therapist=initials))
         self._share_settings()
-
-    @property
-    def settings(self) -> Settings:
-        return self._settings
 
     @property
     def first_start_answered(self) -> bool:
         """True if the offer of the first start was answered."""
-        return self._settings.first_start.answered
+        return self.settings.first_start.answered
 
     def _save_changes(self, before: Settings) -> None:
         if self._is_demo:
             return
         try:
-            save_preferences(before, self._settings, self._folder)
+            save_preferences(before, self.settings, self._folder)
         except CarpusFault as fault:
             self._controller.messages.show_fault(fault)
 
@@ -145,9 +141,9 @@ class PreferencesController(QObject):
         | PracticeSystemSettings,
     ) -> None:
         """Save sections of the settings that a card of its own has changed."""
-        before, self._settings = self._settings, replace(self._settings, **changed)  # type: ignore[arg-type]
+        before, self.settings = self.settings, replace(self.settings, **changed)  # type: ignore[arg-type]
         self._save_changes(before)
 
     def follow_system(self) -> None:
         """Follow a change between light and dark."""
-        self._theme.choose(self._resolve_theme(self._settings))
+        self._theme.choose(self._resolve_theme(self.settings))

@@ -528,12 +528,6 @@ class PatientListMissing(Notice, code="C-711"):
     remedy = phrase("Restore a backup, or enter the names again.")
 
 
-class LogProtectionRestored(Notice, code="C-712"):
-    summary = phrase("The write protection of the audit log in {subject} had been removed. Carpus has restored it.")
-    data_safety = phrase("Patients and sessions are safe. Entries of the log may have been altered.")
-    remedy = phrase("Compare the log with a backup, and tell your data-protection officer.")
-
-
 class SessionFilesIgnored(Notice, code="C-508"):
     """``subject`` names some of the files, ``detail`` counts them."""
 
@@ -587,14 +581,6 @@ class DataFolderMissing(CarpusFault, code="C-410"):
     data_safety = _UNCHANGED
     remedy = phrase("Choose the folder that contains the patients.")
     support = phrase("“carpus doctor” shows which data folder is used.")
-
-
-class DataFolderChanged(CarpusFault, code="C-411"):
-    """``subject`` is opened now, ``detail`` was before, or is in the settings."""
-
-    summary = phrase("Carpus now uses another data folder: {subject}.")
-    data_safety = phrase("The previous folder was {detail}. Nothing was moved.")
-    remedy = phrase("If patients are missing here, choose the data folder in the settings.")
 
 
 class FolderInUse(CarpusFault, code="C-412"):

@@ -56,7 +56,7 @@ class Backlog:
             BlockingQueue(min(MAX_PREVIEW_WAITING, capacity)) if is_blocking else BoundedQueue(capacity)
         )
         self._lock = threading.Lock()
-        self._submission_count = self._processed_count = self._dropped_before = 0
+        self.submission_count = self._processed_count = self._dropped_before = 0
         self._last_queued_s = -math.inf
         self._processed_at_s: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
 
@@ -73,11 +73,6 @@ class Backlog:
                 self._processed_at_s.append(time.monotonic())
 
     @property
-    def submission_count(self) -> int:
-        """Number of frames submitted or announced."""
-        return self._submission_count
-
-    @property
     def lag_s(self) -> float:
         """Time that the tracker needs for the waiting frames at its recent speed; NaN if unknown."""
         waiting = len(self)
@@ -91,13 +86,13 @@ class Backlog:
         """Return whether any of the first ``count`` frames waits or is being processed."""
         with self._lock:
             return self._processed_count < (
-                self._submission_count if count is None else min(count, self._submission_count)
+                self.submission_count if count is None else min(count, self.submission_count)
             )
 
     def announce(self) -> None:
         """Announce a frame, so that whoever waits for the tracker waits for this one too."""
         with self._lock:
-            self._submission_count += 1
+            self.submission_count += 1
 
     def submit(self, queued: QueuedFrame) -> None:
         """Queue an announced frame, or drop it."""
@@ -121,7 +116,7 @@ class Backlog:
         except QueueClosedError:
             pass  # the session ended while a file waited for the tracker
         with self._lock:
-            self._submission_count -= 1
+            self.submission_count -= 1
 
     def is_stale(self, queued: QueuedFrame) -> bool:
         """Return whether a frame waited for a failed recording and the queue is long.

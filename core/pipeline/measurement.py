@@ -214,8 +214,8 @@ class MeasurementController:
         listener: Callable[[Calibration], Listener | None] = lambda _: None,
     ) -> None:
         self._listener = listener
-        self._session, self._info, self._set_up, self._settings = session, info, set_up, settings
-        self._new_sessions, self._recording, self._is_playback = new_sessions, recording, recording is not None
+        self.feed, self._info, self._set_up, self._settings = session, info, set_up, settings
+        self._new_sessions, self._recording, self.is_playback = new_sessions, recording, recording is not None
         self._on_tracking_started, self._on_recording_started, self._on_exercise_changed = (
             on_tracking_started,
             on_recording_started,
@@ -225,25 +225,12 @@ class MeasurementController:
         self._identity: tuple[str, str] | None = None
         self._pipeline: LivePipeline | None = None
         self._noise: NeutralNoise | None = None
-        self._calibration: Calibration | None = None
+        self.calibration: Calibration | None = None
         self._marker_image_rgb: ByteImage | None = None
-
-    @property
-    def feed(self) -> LiveSession:
-        return self._session
 
     @property
     def camera(self) -> Camera:
         return self._info.camera
-
-    @property
-    def calibration(self) -> Calibration | None:
-        return self._calibration
-
-    @property
-    def is_playback(self) -> bool:
-        """Whether the source is a stored recording, which is recorded from its first frame to its last."""
-        return self._is_playback
 
     @property
     def is_simulated(self) -> bool:
@@ -260,25 +247,25 @@ class MeasurementController:
         self._noise = noise_from_neutral(outcome.noise, neutral_ends_s, self._settings.tracker)
         pipeline = build_pipeline(outcome, self.camera, self._settings, self._noise, keep_history=self._settings.smooth)
         self._pipeline = LivePipeline(pipeline, neutral_ends_s)
-        self._calibration = outcome.calibration
+        self.calibration = outcome.calibration
         self._marker_image_rgb = _crop_markers(frames[0].color_rgb, outcome.pixel)
         try:
-            self._session.set_listener(self._listener(self._calibration) if self._calibration is not None else None)
+            self.feed.set_listener(self._listener(self.calibration) if self.calibration is not None else None)
         except errors.ExtraMissing as fault:
-            self._session.handle_notice(fault)
-        self._session.start_tracking(self._pipeline)
+            self.feed.handle_notice(fault)
+        self.feed.start_tracking(self._pipeline)
         self._on_tracking_started()
 
     def set_exercise(self, set_up: SessionSetup) -> None:
         """Set the next exercise of the same hand with the same markers; not while a recording runs."""
-        assert not self._session.is_recording
+        assert not self.feed.is_recording
         assert set_up.protocol == self._set_up.protocol
         self._set_up = set_up
         self._on_exercise_changed(set_up)
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
-        calibration, pipeline, noise = self._calibration, self._pipeline, self._noise
+        calibration, pipeline, noise = self.calibration, self._pipeline, self._noise
         assert calibration is not None
         assert pipeline is not None
         assert noise is not None
@@ -315,7 +302,7 @@ class MeasurementController:
 
         journal_path, patient_id = path.with_suffix(JOURNAL_SUFFIX), self._set_up.patient_id
         try:
-            self._session.start_recording(
+            self.feed.start_recording(
                 lambda: RecordedSession(
                     RecordingJournal(journal_path, header, self.camera, calibration, patient_id), smoothing
                 ),
@@ -329,9 +316,9 @@ class MeasurementController:
             raise
         # Asked for the outline when the recording ends, for which a person waits.
         threading.Thread(target=READING_PROCESS.start, name="reading", daemon=True).start()
-        if self._is_playback and not self._played:
+        if self.is_playback and not self._played:
             self._played = True
-            self._session.start()
+            self.feed.start()
         self._on_recording_started()
 
     def _frame_writer_opener(self, path: Path, info: SourceInfo) -> Callable[[], RawWriter]:
@@ -362,7 +349,7 @@ class MeasurementController:
     def stop_recording(self) -> str:
         """Store everything and return the session id; a fault is raised after stored data are finished."""
         try:
-            path = self._session.stop_recording()
+            path = self.feed.stop_recording()
         except errors.RecordingEmpty:
             raise
         except Exception:
@@ -383,8 +370,8 @@ class MeasurementController:
 
     def close(self) -> None:
         """Close the source; a running recording is finished."""
-        self._session.stop()
-        self._session.set_listener(None)
+        self.feed.stop()
+        self.feed.set_listener(None)
 
 
 def _crop_markers(color_rgb: ByteImage, pixel: FloatArray) -> ByteImage | None:

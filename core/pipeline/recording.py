@@ -79,9 +79,9 @@ class Recorder(Generic[SinkT, Item]):
         self._free_slots = threading.Semaphore(capacity) if is_blocking else None
         self._opened = threading.Event()
         self._lock = threading.Lock()
-        self._fault: Exception | None = None
-        self._path: Path | None = None
-        self._write_count = 0
+        self.fault: Exception | None = None
+        self.path: Path | None = None
+        self.write_count = 0
         self._is_discarded = False
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
 
@@ -89,33 +89,19 @@ class Recorder(Generic[SinkT, Item]):
     def queue_length(self) -> int:
         return len(self._queue)
 
-    @property
-    def write_count(self) -> int:
-        return self._write_count
-
-    @property
-    def fault(self) -> Exception | None:
-        """Exception that ended the recording early."""
-        return self._fault
-
-    @property
-    def path(self) -> Path | None:
-        """Path of the file, None until it is open."""
-        return self._path
-
     def start(self) -> None:
         """Start the thread and wait until the file is open; raises its fault."""
         self._thread.start()
         self._opened.wait()
-        if self._path is None and self._fault is not None:
+        if self.path is None and self.fault is not None:
             self._thread.join()
-            raise self._fault
+            raise self.fault
 
     def submit(self, item: Item) -> bool:
         """Queue one item without waiting; return False if the recording has ended."""
         if self._free_slots is not None:
             while not self._free_slots.acquire(timeout=POLL_S):
-                if self._fault is not None:
+                if self.fault is not None:
                     return False
         try:
             self._queue.push(item)
@@ -124,7 +110,7 @@ class Recorder(Generic[SinkT, Item]):
         except QueueFullError:
             self._queue.close()
             self._fail(
-                DiskTooSlow(self._path or "", phrase("{capacity} rows not yet written", capacity=self._queue.capacity))
+                DiskTooSlow(self.path or "", phrase("{capacity} rows not yet written", capacity=self._queue.capacity))
             )
             return False
         return True
@@ -133,10 +119,10 @@ class Recorder(Generic[SinkT, Item]):
         """Wait until all items are stored and the file is closed; raises the fault that ended it early."""
         self._queue.close()
         self._thread.join()
-        if self._fault is not None:
-            raise self._fault
-        assert self._path is not None
-        return self._path
+        if self.fault is not None:
+            raise self.fault
+        assert self.path is not None
+        return self.path
 
     def discard(self) -> None:
         """End a recording that never began and remove its file."""
@@ -148,22 +134,22 @@ class Recorder(Generic[SinkT, Item]):
         sink: SinkT | None = None
         try:
             sink = self._open_sink()
-            self._path = sink.path
+            self.path = sink.path
             self._opened.set()
             for item in self._queue:
                 self._write(sink, item)
-                self._write_count += 1
+                self.write_count += 1
                 if self._free_slots is not None:
                     self._free_slots.release()
             if self._is_discarded:
                 sink.discard()
             else:
                 sink.close()
-                self._path = sink.path
+                self.path = sink.path
         except Exception as cause:  # the one catch at the top of this thread
             self._queue.close()
             if sink is None:
-                self._fault = cause  # raised by start()
+                self.fault = cause  # raised by start()
             else:
                 self._fail(cause)
                 with contextlib.suppress(Exception):  # the first fault is the one to tell
@@ -173,9 +159,9 @@ class Recorder(Generic[SinkT, Item]):
 
     def _fail(self, cause: Exception) -> None:
         with self._lock:
-            first = self._fault is None
+            first = self.fault is None
             if first:
-                self._fault = cause
+                self.fault = cause
         if first:
             self._on_fault(cause)
 

@@ -1,4 +1,4 @@
-"""Packages that Carpus uses, with their licences, and a newer version in the clinic's update folder."""
+"""Packages that Carpus uses, with their licences."""
 
 from __future__ import annotations
 
@@ -103,31 +103,3 @@ def _resource_texts() -> Iterator[tuple[str, str]]:
                 is_licence = file.name.upper().startswith((*_LICENCE_NAMES, "OFL")) or folder == "licences"
                 if is_licence and file.is_file():
                     yield f"{folder}/{file.name}", file.read_bytes().decode("utf-8", errors="replace")
-
-
-_PACKAGE = "carpus"
-
-
-def find_latest_version(folder: Path) -> str:
-    """Return the latest version in an apt repository's folder, empty for none. Raises OSError."""
-    text = (folder / "Packages").read_text(encoding="utf-8", errors="replace")
-    found = []
-    for part in text.split("\n\n"):
-        fields = dict(re.findall(r"^(Package|Version): *(\S+)$", part, re.MULTILINE))
-        if fields.get("Package") == _PACKAGE and "Version" in fields:
-            found.append(fields["Version"].replace("~", ""))
-    return max(found, key=_sort_key, default="")
-
-
-def is_newer(version: str, other: str) -> bool:
-    """Return whether a version (as in Python or Debian) comes after another.
-
-    >>> is_newer("0.10.0", "0.9.1"), is_newer("0.2.0rc1", "0.2.0"), is_newer("0.2.0", "0.2.0")
-    (True, False, False)
-    """
-    return _sort_key(version) > _sort_key(other)
-
-
-def _sort_key(version: str) -> tuple[tuple[int, ...], bool, tuple[int, ...]]:
-    release, before = re.findall(r"^([\d.]*)(.*)", version.replace("~", ""))[0]
-    return tuple(map(int, re.findall(r"\d+", release))), not before, tuple(map(int, re.findall(r"\d+", before)))

@@ -35,14 +35,14 @@ from carpus.core.platform.durable import (
 from carpus.core.platform.version import __version__
 from carpus.core.records.database import STORE_FILE, copy_to_memory
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX
-from carpus.core.records.store import RESERVE_FILE, SESSIONS_FOLDER, require_store
+from carpus.core.records.store import SESSIONS_FOLDER, require_store
 from carpus.core.session.atomic_files import TEMPORARY, find_free_name
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
 SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", f"{SESSIONS_FOLDER}/"
 LOCK_FILE = ".lock"
-EXCLUDED_SUFFIXES = (".alive", TEMPORARY, "-wal", "-shm", "-journal", ".lock", PENDING_COPY_SUFFIX, RESERVE_FILE)
+EXCLUDED_SUFFIXES = (".alive", TEMPORARY, "-wal", "-shm", "-journal", ".lock", PENDING_COPY_SUFFIX, ".reserve")
 BLOCK_BYTES = 1 << 20
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 _MAX_COUNT = 1 << 62

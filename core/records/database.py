@@ -37,9 +37,8 @@ _MIGRATION_LOCK = threading.Lock()
 class Database:
     """SQLite database: readers never wait for a writer; one writer at a time, also among programs.
 
-    ``is_new``: the tables had to be created. ``had_unguarded_log``: somebody had removed the log's triggers, which are
-    restored. Raises :class:`PatientListUnreadable`, :class:`PatientListDamaged` where waiting does not help,
-    :class:`OutputNotWritable`, :class:`DiskFull`.
+    ``is_new``: the tables had to be created. Raises :class:`PatientListUnreadable`, :class:`PatientListDamaged` where
+    waiting does not help, :class:`OutputNotWritable`, :class:`DiskFull`.
     """
 
     def __init__(self, path: Path, copy: sqlite3.Connection | None = None) -> None:
@@ -60,7 +59,7 @@ class Database:
                 if is_checked and connection.exec_driver_sql("PRAGMA quick_check(1)").scalar() != "ok":
                     raise errors.PatientListDamaged(path, phrase("damaged"))
                 self.is_new = migrate(connection, path)
-                self.had_unguarded_log = _restore_log_triggers(connection)
+                _restore_log_triggers(connection)
                 for table in METADATA.sorted_tables:  # as text: SQLAlchemy would take a millisecond for each
                     columns = ", ".join(f'{table.name}."{column.name}"' for column in table.c)
                     connection.exec_driver_sql(f"SELECT {columns} FROM {table.name} LIMIT 0")
@@ -220,15 +219,15 @@ def migrate(connection: Connection, name: Path | str) -> bool:
     return found is None
 
 
-def _restore_log_triggers(connection: Connection) -> bool:
-    """Restore missing or changed triggers of the log; return whether there were any."""
+def _restore_log_triggers(connection: Connection) -> None:
+    """Restore missing or changed triggers of the log."""
     query = "SELECT name, sql FROM sqlite_master WHERE type = 'trigger'"
     there = {str(name): sql for name, sql in connection.exec_driver_sql(query)}
-    wanted = {one.split()[2]: one for one in SQLITE_LOG.strip().removesuffix(";").split(";\n")}
-    for name in (changed := [name for name in wanted if there.get(name) != wanted[name]]):
-        connection.exec_driver_sql(f"DROP TRIGGER IF EXISTS {name}")
-        connection.exec_driver_sql(wanted[name])
-    return bool(changed)
+    for one in SQLITE_LOG.strip().removesuffix(";").split(";\n"):
+        name = one.split()[2]
+        if there.get(name) != one:
+            connection.exec_driver_sql(f"DROP TRIGGER IF EXISTS {name}")
+            connection.exec_driver_sql(one)
 
 
 def rescue_rows(damaged: Path, target: Database) -> int:

@@ -37,7 +37,7 @@ from carpus.core.records.session_list import (
     read_file_states,
 )
 from carpus.core.records.session_records import find_output_files
-from carpus.core.records.store import Store, free_reserve
+from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
 from carpus.core.session.atomic_files import iter_paths
 
@@ -107,19 +107,10 @@ def erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     """Erase as planned; return the number of files.
 
     Files that cannot be deleted are tried again when the store is opened. A patient's sessions added since the plan go
-    too. On a full disk the reserve is freed first.
+    too.
     Raises :class:`ErasureUnfinished` if files are left, :class:`OutputNotWritable` or :class:`DiskFull` if it could not
     be logged and so was not started.
     """
-    try:
-        return _erase(store, plan, log)
-    except errors.DiskFull:
-        if not free_reserve(store.folder):
-            raise
-        return _erase(store, plan, log)
-
-
-def _erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     log.write_entry("erase_begun", plan.kind, plan.subject_id, files=len(plan.files))
     SessionFileScanner(store).scan(reports_faults=False)
     marked = [update_row(SESSION, one.session_id, erasing=1) for one in plan.results]

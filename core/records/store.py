@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-import shutil
 import sqlite3
 import time
 import uuid
@@ -19,7 +16,7 @@ from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, 
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder, open_private
+from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder
 from carpus.core.records.changes import ChangeSet, apply_changes, insert_row
 from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
 from carpus.core.records.schema import PATIENT, TABLES
@@ -28,30 +25,6 @@ from carpus.core.session.atomic_files import iter_paths
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
-
-
-RESERVE_FILE = ".reserve"
-RESERVE_BYTES = 2 << 20
-"""For pages that SQLite writes before it can free others."""
-MIN_FREE_BYTES = 20 * RESERVE_BYTES
-
-
-def create_reserve(folder: Path) -> None:
-    """Reserve the space if there is plenty and none is reserved."""
-    path = folder / RESERVE_FILE
-    with contextlib.suppress(OSError):
-        if not path.exists() and shutil.disk_usage(folder).free > MIN_FREE_BYTES:
-            with open(path, "xb", opener=open_private) as file:
-                file.write(os.urandom(RESERVE_BYTES))  # what no disk can make smaller
-
-
-def free_reserve(folder: Path) -> bool:
-    """Free the space; return whether there was any."""
-    try:
-        (folder / RESERVE_FILE).unlink()
-    except OSError:
-        return False
-    return True
 
 
 T = TypeVar("T")
@@ -86,6 +59,7 @@ class Store:
         """The sessions lie in a folder of several computers, which is never created here."""
         if copy is None:
             make_private_folder(folder)
+            (folder / ".reserve").unlink(missing_ok=True)  # room on the disk that Carpus 0.2.0 kept
             if not self.uses_share:
                 make_private_folder(self.sessions_folder)
         self._on_fault, self._reported_rows = on_fault, set[str]()
@@ -100,8 +74,6 @@ class Store:
             self.server = self._database
             return
         self._database = database = self._open_database() if copy is None else Database(self._path, copy)
-        if database.had_unguarded_log:
-            self.startup_faults.append(errors.LogProtectionRestored(self._path))
         if database.is_new and not self.startup_faults and self._has_sessions():
             self.startup_faults.append(errors.PatientListMissing(self._path))
         with database.writing() as connection:
@@ -137,16 +109,10 @@ class Store:
 
     def _open_database(self) -> Database:
         path = self._path
-        with _exclusive_lock(
-            path
-        ):  # two programs that meet a damaged one would each set aside what the other has just made
+        # two programs that meet a damaged one would each set aside what the other has just made
+        with _exclusive_lock(path):
             try:
-                try:
-                    return Database(path)
-                except errors.DiskFull:
-                    if not free_reserve(self.folder):
-                        raise
-                    return Database(path)
+                return Database(path)
             except errors.PatientListDamaged as fault:
                 aside, database = move_aside(path, datetime.now()), Database(path)
                 rows = rescue_rows(aside, database)

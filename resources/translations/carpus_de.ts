@@ -4260,10 +4260,6 @@
         <translation>Kalibrieren Sie die Kamera in den Einstellungen.</translation>
     </message>
     <message>
-        <source>Carpus now uses another data folder: {subject}.</source>
-        <translation>Carpus verwendet jetzt einen anderen Datenordner: {subject}.</translation>
-    </message>
-    <message>
         <source>Carpus was not installed completely: a compiled part is missing ({subject}).</source>
         <translation>Carpus wurde nicht vollständig installiert: Ein kompilierter Teil fehlt ({subject}).</translation>
     </message>
@@ -4316,10 +4312,6 @@
         <translation>Schließen Sie Carpus auf anderen Computern. Wenn das nicht hilft, bitten Sie Ihre IT-Betreuung um Schreibzugriff.</translation>
     </message>
     <message>
-        <source>Compare the log with a backup, and tell your data-protection officer.</source>
-        <translation>Vergleichen Sie das Protokoll mit einer Sicherung, und informieren Sie die für den Datenschutz zuständige Person.</translation>
-    </message>
-    <message>
         <source>Comparison</source>
         <translation>Vergleich</translation>
     </message>
@@ -4366,10 +4358,6 @@
     <message>
         <source>Hold the whole printed board in the camera image, in good light.</source>
         <translation>Halten Sie die ganze gedruckte Tafel ins Kamerabild, bei gutem Licht.</translation>
-    </message>
-    <message>
-        <source>If patients are missing here, choose the data folder in the settings.</source>
-        <translation>Wenn hier Patienten fehlen, wählen Sie den Datenordner in den Einstellungen.</translation>
     </message>
     <message>
         <source>If there are many, copy the recording again.</source>
@@ -4434,10 +4422,6 @@
     <message>
         <source>Patients</source>
         <translation>Patienten</translation>
-    </message>
-    <message>
-        <source>Patients and sessions are safe. Entries of the log may have been altered.</source>
-        <translation>Patienten und Sitzungen sind sicher. Einträge des Protokolls können verändert worden sein.</translation>
     </message>
     <message>
         <source>Plug the camera directly into the computer.</source>
@@ -4626,10 +4610,6 @@
     <message>
         <source>The session was not changed.</source>
         <translation>Die Sitzung wurde nicht verändert.</translation>
-    </message>
-    <message>
-        <source>The write protection of the audit log in {subject} had been removed. Carpus has restored it.</source>
-        <translation>Der Schreibschutz des Protokolls in {subject} war entfernt worden. Carpus hat ihn wiederhergestellt.</translation>
     </message>
     <message>
         <source>There is no backup in {subject}.</source>
@@ -5062,10 +5042,6 @@
     <message>
         <source>Remove files that do not belong to Carpus, or choose another disk.</source>
         <translation>Entfernen Sie Dateien, die nicht zu Carpus gehören, oder wählen Sie einen anderen Datenträger.</translation>
-    </message>
-    <message>
-        <source>The previous folder was {detail}. Nothing was moved.</source>
-        <translation>Der bisherige Ordner war {detail}. Es wurde nichts verschoben.</translation>
     </message>
     <message>
         <source>no fonts of Carpus</source>
@@ -7054,10 +7030,6 @@ cm</translation>
 <context>
     <name>CorrectionScreen</name>
     <message>
-        <source>Re-analyse &amp;anyway (uncertain)</source>
-        <translation>&amp;Trotzdem neu analysieren (unsicher)</translation>
-    </message>
-    <message>
         <source>Next uncertain frame</source>
         <translation>Nächstes unsicheres Bild</translation>
     </message>
@@ -7114,32 +7086,8 @@ cm</translation>
         <translation>Noch nichts korrigiert</translation>
     </message>
     <message>
-        <source>Check the labels at {time}</source>
-        <translation>Prüfen Sie die Bezeichnungen bei {time}</translation>
-    </message>
-    <message>
-        <source>“{one}” and “{other}” appear swapped</source>
-        <translation>„{one}“ und „{other}“ scheinen vertauscht</translation>
-    </message>
-    <message>
-        <source>Swap the labels</source>
-        <translation>Bezeichnungen tauschen</translation>
-    </message>
-    <message>
-        <source>Undo the last step</source>
-        <translation>Letzten Schritt rückgängig machen</translation>
-    </message>
-    <message>
-        <source>Show that frame</source>
-        <translation>Dieses Bild anzeigen</translation>
-    </message>
-    <message>
         <source>Changed here: {markers}</source>
         <translation>Hier geändert: {markers}</translation>
-    </message>
-    <message>
-        <source>“{marker}” cannot be there</source>
-        <translation>„{marker}“ kann dort nicht sein</translation>
     </message>
     <message>
         <source>Drag the label “{marker}” to its marker</source>
@@ -10341,18 +10289,6 @@ von oben</translation>
     <message>
         <source>Appearance and language</source>
         <translation>Darstellung und Sprache</translation>
-    </message>
-    <message>
-        <source>The update folder cannot be read: {folder}.</source>
-        <translation>Der Ordner für Aktualisierungen ist nicht lesbar: {folder}.</translation>
-    </message>
-    <message>
-        <source>Version {newest} is available in {folder}. Back up, then install it over this one. Patients, sessions and settings stay.</source>
-        <translation>Version {newest} liegt in {folder} bereit. Erstellen Sie eine Sicherung, und installieren Sie die neue Version über die vorhandene. Patienten, Sitzungen und Einstellungen bleiben.</translation>
-    </message>
-    <message>
-        <source>There is no newer version in {folder}.</source>
-        <translation>In {folder} liegt keine neuere Version.</translation>
     </message>
     <message>
         <source>No sound</source>

@@ -4260,10 +4260,6 @@
         <translation>Calibrare la telecamera nelle impostazioni.</translation>
     </message>
     <message>
-        <source>Carpus now uses another data folder: {subject}.</source>
-        <translation>Carpus usa ora un’altra cartella dei dati: {subject}.</translation>
-    </message>
-    <message>
         <source>Carpus was not installed completely: a compiled part is missing ({subject}).</source>
         <translation>Carpus non è stato installato completamente: manca una parte compilata ({subject}).</translation>
     </message>
@@ -4316,10 +4312,6 @@
         <translation>Chiudere Carpus sugli altri computer. Se non basta, chiedere al supporto informatico l’accesso in scrittura.</translation>
     </message>
     <message>
-        <source>Compare the log with a backup, and tell your data-protection officer.</source>
-        <translation>Confrontare il registro con una copia di sicurezza, e informare il responsabile della protezione dei dati.</translation>
-    </message>
-    <message>
         <source>Comparison</source>
         <translation>Confronto</translation>
     </message>
@@ -4366,10 +4358,6 @@
     <message>
         <source>Hold the whole printed board in the camera image, in good light.</source>
         <translation>Tenere l’intera tavola stampata nell’immagine della telecamera, con buona luce.</translation>
-    </message>
-    <message>
-        <source>If patients are missing here, choose the data folder in the settings.</source>
-        <translation>Se qui mancano pazienti, scegliere la cartella dei dati nelle impostazioni.</translation>
     </message>
     <message>
         <source>If there are many, copy the recording again.</source>
@@ -4434,10 +4422,6 @@
     <message>
         <source>Patients</source>
         <translation>Pazienti</translation>
-    </message>
-    <message>
-        <source>Patients and sessions are safe. Entries of the log may have been altered.</source>
-        <translation>Pazienti e sedute sono al sicuro. Le voci del registro possono essere state alterate.</translation>
     </message>
     <message>
         <source>Plug the camera directly into the computer.</source>
@@ -4626,10 +4610,6 @@
     <message>
         <source>The session was not changed.</source>
         <translation>La seduta non è stata modificata.</translation>
-    </message>
-    <message>
-        <source>The write protection of the audit log in {subject} had been removed. Carpus has restored it.</source>
-        <translation>La protezione da scrittura del registro delle operazioni in {subject} era stata rimossa. Carpus l’ha ripristinata.</translation>
     </message>
     <message>
         <source>There is no backup in {subject}.</source>
@@ -5062,10 +5042,6 @@
     <message>
         <source>Remove files that do not belong to Carpus, or choose another disk.</source>
         <translation>Rimuovere file che non appartengono a Carpus, o scegliere un altro disco.</translation>
-    </message>
-    <message>
-        <source>The previous folder was {detail}. Nothing was moved.</source>
-        <translation>La cartella precedente era {detail}. Non è stato spostato nulla.</translation>
     </message>
     <message>
         <source>no fonts of Carpus</source>
@@ -7054,10 +7030,6 @@ cm</translation>
 <context>
     <name>CorrectionScreen</name>
     <message>
-        <source>Re-analyse &amp;anyway (uncertain)</source>
-        <translation>Rianali&amp;zza comunque (incerto)</translation>
-    </message>
-    <message>
         <source>Next uncertain frame</source>
         <translation>Fotogramma incerto seguente</translation>
     </message>
@@ -7114,32 +7086,8 @@ cm</translation>
         <translation>Ancora nessuna correzione</translation>
     </message>
     <message>
-        <source>Check the labels at {time}</source>
-        <translation>Controllare le etichette a {time}</translation>
-    </message>
-    <message>
-        <source>“{one}” and “{other}” appear swapped</source>
-        <translation>“{one}” e “{other}” sembrano scambiati</translation>
-    </message>
-    <message>
-        <source>Swap the labels</source>
-        <translation>Scambia le etichette</translation>
-    </message>
-    <message>
-        <source>Undo the last step</source>
-        <translation>Annulla l’ultimo passo</translation>
-    </message>
-    <message>
-        <source>Show that frame</source>
-        <translation>Mostra quel fotogramma</translation>
-    </message>
-    <message>
         <source>Changed here: {markers}</source>
         <translation>Cambiamenti qui: {markers}</translation>
-    </message>
-    <message>
-        <source>“{marker}” cannot be there</source>
-        <translation>“{marker}” non può essere lì</translation>
     </message>
     <message>
         <source>Drag the label “{marker}” to its marker</source>
@@ -10341,18 +10289,6 @@ dall’alto</translation>
     <message>
         <source>Appearance and language</source>
         <translation>Aspetto e lingua</translation>
-    </message>
-    <message>
-        <source>The update folder cannot be read: {folder}.</source>
-        <translation>La cartella degli aggiornamenti non è leggibile: {folder}.</translation>
-    </message>
-    <message>
-        <source>Version {newest} is available in {folder}. Back up, then install it over this one. Patients, sessions and settings stay.</source>
-        <translation>La versione {newest} è disponibile in {folder}. Eseguire una copia di sicurezza, poi installare la nuova versione sopra questa. Pazienti, sedute e impostazioni restano.</translation>
-    </message>
-    <message>
-        <source>There is no newer version in {folder}.</source>
-        <translation>In {folder} non c’è una versione più recente.</translation>
     </message>
     <message>
         <source>No sound</source>

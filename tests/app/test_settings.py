@@ -26,7 +26,6 @@ from carpus.app.settings import (
     Settings,
     load_settings,
     load_valid_settings,
-    save_last_data_folder,
     save_preferences,
     settings_folder,
     with_data_folder,
@@ -174,14 +173,6 @@ def test_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..
     assert (stored.data_folder, stored.backup.hour) == (Path("/clinic"), 18)
     assert (stored.patient.sound, stored.lock.after_min) == (True, 5), "what was changed is stored"
     assert "folder" not in (tmp_path / "settings" / PREFERENCES_FILE).read_text(encoding="utf-8")
-
-
-def test_data_folder_that_changes_is_noticed_at_next_start(tmp_path: Path) -> None:
-    one, other = tmp_path / "one", tmp_path / "other"
-    assert save_last_data_folder(one, tmp_path) is None, "nobody knows of any before"
-    assert save_last_data_folder(one, tmp_path) is None
-    assert save_last_data_folder(other, tmp_path) == one
-    assert save_last_data_folder(other, tmp_path) is None
 
 
 GOLDEN = Path(__file__).parent / "golden"

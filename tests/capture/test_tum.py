@@ -154,7 +154,7 @@ BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
     "line without a name": (more("rgb.txt", "1305031109.0"), RecordingUnreadable, "line 8"),
     "time not a number": (more("depth.txt", "nan x.png"), RecordingUnreadable, "line 7"),
     "times swapped": (swap_files("rgb.txt"), TimesUnordered, "line 7"),
-    "a line leads to a drive": (more("rgb.txt", "1305031109.0 C:\\a.png"), RecordingUnreadable, "out of the folder"),
+    "a line leads to a drive": (more("rgb.txt", "1305031109.0 C:\\a.png"), RecordingUnreadable, "outside the folder"),
     "a unit of depth that is none": (
         lambda f: (camera_file(OWN_CAMERA)(f), edit(f / "camera_info.yaml", lambda t: [*t, "depth_unit_m: 1"])),
         CameraFileUnreadable, "depth_unit_m",

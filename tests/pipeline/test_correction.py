@@ -36,7 +36,6 @@ from carpus.core.records.corrections import compare_results
 from carpus.core.session.label_checks import (
     CORRECTED,
     Correction,
-    find_label_doubt,
     read_corrections,
     summarize_corrections,
 )
@@ -162,36 +161,6 @@ def test_correction_result_names_origin_and_keeps_notes(stored: Stored, right: P
     ((read, by),) = read_corrections(new)
     assert (read.row, by) == (WRONG_FROM, "MK")
     assert read.places["MCP3"] == pytest.approx(stored.disc_px, abs=0.1)
-
-
-def test_label_doubt_only_for_wrong_labels(stored: Stored) -> None:
-    session = read_session(stored.path)
-    markers = list(session.header.protocol.markers)
-    right = session.markers.measured_px[WRONG_FROM].copy()
-    right[MCP3] = stored.disc_px
-    assert find_label_doubt(session, WRONG_FROM, right, ["MCP3"]) is None
-    for one in range(len(markers)):
-        assert find_label_doubt(session, WRONG_FROM, right, [markers[one]]) is None
-        for other in range(one):
-            wrong = right.copy()
-            wrong[[one, other]] = right[[other, one]]
-            told = find_label_doubt(session, WRONG_FROM, wrong, [markers[one], markers[other]])
-            assert told is not None
-            assert told.swapped is not None
-            assert set(told.swapped) == {markers[one], markers[other]}
-    far = right.copy()
-    far[MCP3] = stored.false_px
-    told = find_label_doubt(session, WRONG_FROM, far, ["MCP3"])
-    assert told is not None
-    assert told.misplaced == "MCP3"
-    assert 0.02 < told.offset_m < 0.2
-    assert find_label_doubt(session, WRONG_FROM, far, ["MCP5"]) is None  # somebody else's fault is not this change's
-    first_off_m = next(
-        told.offset_m
-        for away_px in np.arange(0.0, 60.0, 0.25)
-        if (told := find_label_doubt(session, WRONG_FROM, right + away_px * (np.arange(6) == MCP3)[:, None], ["MCP3"]))
-    )
-    assert 0.012 < first_off_m < 0.015, "where the palm's misfit tells it too"
 
 
 def test_lost_correction_is_reported(stored: Stored, tmp_path: Path) -> None:

@@ -6,11 +6,10 @@ import json
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
-from typing import Any
 
 import h5py
 import pytest
@@ -18,15 +17,13 @@ from sqlalchemy import select, update
 
 from carpus.core.model.errors import (
     ConcurrentChange,
-    DiskFull,
     ErasureBlockedByLink,
     ErasureUnfinished,
     FolderMissing,
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.records import clinic_records, database, erasure, session_records
-from carpus.core.records import store as store_module
+from carpus.core.records import clinic_records, erasure, session_records
 from carpus.core.records.backup import create_backup
 from carpus.core.records.changes import insert_row
 from carpus.core.records.data_folder import DataFolder
@@ -366,34 +363,6 @@ def test_find_due_patients_uses_last_session(house: House) -> None:
     last_day = found[0].keep_until
     assert find_due_patients(house.store, 10, last_day) == []
     assert len(find_due_patients(house.store, 10, last_day + timedelta(days=1))) == 1
-
-
-def test_erase_on_full_disk_frees_reserve(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full_while_kept(real: Callable[..., Any]) -> Callable[..., Any]:
-        def tried(*given: Any, **named: Any) -> Any:
-            if (folder / store_module.RESERVE_FILE).exists():
-                raise DiskFull(folder)
-            return real(*given, **named)
-
-        return tried
-
-    monkeypatch.setattr(store_module, "MIN_FREE_BYTES", 0)
-    with open_store(folder) as house:
-        linden = house.patients.add(LINDEN)
-        sessions = fill(house, linden)
-    store_module.create_reserve(folder)
-    assert (folder / store_module.RESERVE_FILE).stat().st_size == store_module.RESERVE_BYTES
-    monkeypatch.setattr(store_module, "Database", full_while_kept(database.Database))
-    with open_store(folder) as house:
-        plan = erasure.plan_patient(house.store, linden)
-        store_module.create_reserve(folder)
-        with monkeypatch.context() as full:
-            full.setattr(house.store, "apply", full_while_kept(house.store.apply))
-            erasure.erase(house.store, plan, house.log)
-        assert traces(folder, *NAMES, linden, *sessions) == []
-    monkeypatch.setattr(store_module, "Database", lambda _: (_ for _ in ()).throw(DiskFull(folder)))
-    with pytest.raises(DiskFull), open_store(folder):  # no room is kept any more
-        pass
 
 
 WITHOUT_ROOM = """

@@ -9,14 +9,13 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.session.label_checks import Correction, find_label_doubt
+from carpus.core.session.label_checks import Correction
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.correct.marker_edits import MarkerEdits
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCorrections, FakeSessions, session
-from tests.ui.hand_fakes import hand_session
 
 ROW = 620
 
@@ -71,46 +70,6 @@ def test_correction_label_dragged_near_a_blob_snaps_to_its_centre(
     screen.hide_current()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert asked == [corrections(screen)]
-
-
-def test_correction_swapped_labels_are_reported_and_enter_swaps_them_back(
-    qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
-) -> None:
-    before = screen.edits.original_px(ROW).copy()
-    drag(qtbot, screen, before[2], before[4])
-    np.testing.assert_allclose(screen.edits.current_px(ROW)[[2, 4]], before[[4, 2]])
-    assert screen.title.text() == "“Index MCP” and “Ring finger MCP” appear swapped"
-    assert screen.anyway_button.isVisible()
-    qtbot.keyClick(screen, Qt.Key.Key_Return)
-    assert asked == []
-    np.testing.assert_allclose(screen.edits.current_px(ROW), before)
-    assert not screen.anyway_button.isVisible()
-    screen.undo()
-    screen.anyway_button.click()  # who means it may
-    assert asked == [corrections(screen)]
-
-
-def test_correction_label_far_from_expected_position_is_reported(
-    qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
-) -> None:
-    drag(qtbot, screen, screen.edits.original_px(ROW)[5], np.array([600.0, 60.0]))
-    assert screen.title.text() == "“Little finger MCP” cannot be there"
-    qtbot.keyClick(screen, Qt.Key.Key_Return)
-    assert corrections(screen) == ()
-    assert asked == []
-
-
-def test_correction_labels_on_crossed_fingers_are_reported() -> None:
-    session = hand_session()
-    markers = list(session.header.protocol.markers)
-    row = 40
-    places = session.markers.measured_px[row]
-    for one, other in (("PIP2", "PIP3"), ("TIP4", "TIP5"), ("DIP2", "TIP4")):
-        assert find_label_doubt(session, row, places, [one, other]) is None
-        wrong, pair = places.copy(), [markers.index(one), markers.index(other)]
-        wrong[pair] = places[pair[::-1]]
-        told = find_label_doubt(session, row, wrong, [one, other])
-        assert told.swapped == (one, other)
 
 
 def test_correction_keys_do_the_same_as_the_mouse(qtbot: QtBot, screen: CorrectionScreen) -> None:

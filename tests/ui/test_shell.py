@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.fault_text import MessageText
-from carpus.core.platform.version import __version__
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.session_page import build_session_report
@@ -120,19 +119,6 @@ def test_shell_research_options_are_hidden_by_default(settings: Settings) -> Non
     screen.form["research"].click()
     assert all(widget.isVisible() for widget in folded)
     assert (told[-1].research, told[-1].stream, told[-1].angle_order) == (True, True, "isb"), "no value changes by it"
-
-
-def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None:
-    screen, _ = settings()
-    assert "never checks" in screen.update_text.text()
-    told = []
-    for newest in ("99.10.0", __version__, "", None):
-        screen.show_available_version("/srv/apt", newest)
-        told.append(screen.update_text.text())
-    assert "99.10.0 is available" in told[0]
-    assert told[1] == told[2]
-    assert "no newer version" in told[1]
-    assert "cannot be read" in told[3]
 
 
 def test_report_is_saved_in_background_and_replaces_only_when_asked(

@@ -203,18 +203,14 @@ class ViewCollector:
 
     def __init__(self, camera: Camera, board: Board = CHESSBOARD) -> None:
         self._camera, self._board = camera, board
-        self._views: list[BoardView] = []
+        self.views: list[BoardView] = []
         self._last: tuple[float, DetectedBoard] | None = None
         self._last_search_s = float("-inf")
         self.searched_count, self.detected_count = 0, 0
 
     @property
-    def views(self) -> Sequence[BoardView]:
-        return self._views
-
-    @property
     def coverage(self) -> ViewCoverage:
-        return assess_views(self._views, self._camera.width_px, self._camera.height_px)
+        return assess_views(self.views, self._camera.width_px, self._camera.height_px)
 
     def add(self, frame: Frame) -> bool:
         """Process a frame and return whether its view was kept."""
@@ -223,7 +219,7 @@ class ViewCollector:
 
     def process_frame(self, frame: Frame) -> BoardFrame | None:
         """Search a frame for the board; None if it comes too soon after the last one."""
-        if frame.timestamp_s - self._last_search_s < SEARCH_INTERVAL_S or len(self._views) >= MAX_VIEWS:
+        if frame.timestamp_s - self._last_search_s < SEARCH_INTERVAL_S or len(self.views) >= MAX_VIEWS:
             return None
         self._last_search_s = frame.timestamp_s
         self.searched_count += 1
@@ -236,7 +232,7 @@ class ViewCollector:
         view = to_board_view(found, self._camera, frame.depth_raw, frame.depth_unit_m)
         if view is None:
             return BoardFrame(found, "too_tilted")
-        is_new = all(corner_motion_px(found, kept.detected) >= MIN_NEW_VIEW_PX for kept in self._views)
+        is_new = all(corner_motion_px(found, kept.detected) >= MIN_NEW_VIEW_PX for kept in self.views)
         reason: RejectReason = "" if is_new else "known"
         if edge_width_px(frame.color_rgb, found) > MAX_EDGE_WIDTH_PX:
             reason = "blurred"
@@ -245,5 +241,5 @@ class ViewCollector:
             if corner_motion_px(found, before[1]) / camera_frames > MAX_MOTION_PX:
                 reason = "moving"
         if not reason:
-            self._views.append(view)
+            self.views.append(view)
         return BoardFrame(found, reason, is_kept=not reason)

@@ -100,14 +100,10 @@ class ProcessCamera:
             self._assembler = FrameAssembler(
                 _build_layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, MAX_WAITING_IMAGES, MAX_START_DROPS
             )
-            self._info = self._build_info(camera)
+            self.info = self._build_info(camera)
         except BaseException:
             self._process.close(gently=True)
             raise
-
-    @property
-    def info(self) -> SourceInfo:
-        return self._info
 
     def lock_exposure(self) -> None:
         """Lock exposure and white balance, so that the markers keep their colours.
@@ -135,13 +131,13 @@ class ProcessCamera:
                 if isinstance(fault, errors.DriverFailed) and crashes >= MAX_CRASHES:
                     raise
                 lost = (
-                    fault if isinstance(fault, errors.CameraLost) else errors.CameraLost(self._info.name, fault.detail)
+                    fault if isinstance(fault, errors.CameraLost) else errors.CameraLost(self.info.name, fault.detail)
                 )
             self._notice(lost)
             away_s = self._reconnect(lost)
             if away_s is None:
                 return
-            self._notice(errors.CameraReturned(self._info.name, f"{format_rounded(away_s)} s"))
+            self._notice(errors.CameraReturned(self.info.name, f"{format_rounded(away_s)} s"))
 
     def close(self) -> None:
         """Release the camera; may be called twice, and while another thread waits for a frame."""
@@ -174,7 +170,7 @@ class ProcessCamera:
                 elif report is None or report is Signal.ENDED:
                     return
             if not is_held:
-                self._notice(errors.ExposureUnstable(self._info.name))
+                self._notice(errors.ExposureUnstable(self.info.name))
             for frame in frames:
                 self._last_frame_s = time.monotonic()
                 if self._frames_to_relock:  # a reconnected camera has lost its lock; its automatic settles first

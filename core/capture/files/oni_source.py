@@ -317,11 +317,7 @@ class OniSource:
         self._layout = _build_layout(self._contents, camera_info)
         times_us = self._contents.color.timestamp_us
         self._period_us = float(np.median(np.diff(times_us))) if len(times_us) > 1 else 1e6 / self._contents.color.fps
-        self._info = self._build_info(camera_info, registered)
-
-    @property
-    def info(self) -> SourceInfo:
-        return self._info
+        self.info = self._build_info(camera_info, registered)
 
     def frames(self) -> Iterator[Frame]:
         """Yield all frames from the first on; a pass in progress ends when another begins."""

@@ -74,7 +74,7 @@ class RawWriter(FileWriter):
         lossless: bool = False,
         crop: Callable[[Frame], Frame] = lambda frame: frame,
     ) -> None:
-        self._path = path
+        self.path = path
         self._synced_at_s = time.monotonic()
         self._info = info
         self._lossless, self._crop = lossless, crop
@@ -88,10 +88,6 @@ class RawWriter(FileWriter):
         except OSError as cause:
             raise write_fault(path, cause) from cause
         self._write(_START.pack(MAGIC, VERSION))
-
-    @property
-    def path(self) -> Path:
-        return self._path
 
     def __len__(self) -> int:
         return self._count
@@ -137,7 +133,7 @@ class RawWriter(FileWriter):
             os.fsync(self._file.fileno())
             self._file.close()
         except OSError as cause:
-            raise write_fault(self._path, cause) from cause
+            raise write_fault(self.path, cause) from cause
         finally:
             self._file = None
 
@@ -149,7 +145,7 @@ class RawWriter(FileWriter):
 
     def discard(self) -> None:
         self.abandon()
-        self._path.unlink(missing_ok=True)
+        self.path.unlink(missing_ok=True)
 
     def _write(self, data: bytes) -> None:
         if self._file is None:
@@ -164,7 +160,7 @@ class RawWriter(FileWriter):
             # half a record at the end would be passed over anyway, but a clean end is better
             with suppress(OSError):
                 self._file.truncate(self._end)
-            raise write_fault(self._path, cause) from cause
+            raise write_fault(self.path, cause) from cause
         self._end += len(data)
 
 
@@ -240,7 +236,7 @@ class RawRecording:
             sizes = (lens.fx_px, lens.fy_px, lens.width_px, lens.height_px, self._depth_unit_m)
             if not all(map(math.isfinite, (lens.cx_px, lens.cy_px, *lens.distortion, *sizes))) or min(sizes) <= 0.0:
                 raise ValueError("no camera's values")
-            self._info = SourceInfo(
+            self.info = SourceInfo(
                 str(content["name"]),
                 lens,
                 bool(content["has_depth"]) and any(entry.depth_size for entry in self._entries),
@@ -255,10 +251,6 @@ class RawRecording:
             detail = phrase("damaged header, {count} frames present", count=len(self._entries))
             raise errors.RecordingUnreadable(path, detail) from cause
 
-    @property
-    def info(self) -> SourceInfo:
-        return self._info
-
     def frames(self) -> Iterator[Frame]:
         """Yield all frames from the first on; may be repeated."""
         for frame in self.lazy_frames():
@@ -268,7 +260,7 @@ class RawRecording:
         """Yield all frames, each decoded only where it is needed."""
         left_out = index = number = 0
         last_s = -math.inf
-        camera = self._info.camera
+        camera = self.info.camera
         size_px = (camera.width_px, camera.height_px)
         with self._path.open("rb") as file:
             for entry in self._entries:

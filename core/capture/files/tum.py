@@ -389,7 +389,7 @@ class TumWriter(FileWriter):
     """Writer of one folder. An image enters its list when its file is complete, so a crash costs one frame."""
 
     def __init__(self, path: Path, info: SourceInfo) -> None:
-        self._path = path
+        self.path = path
         self._count = 0
         self._lists: dict[str, FileIO] = {}
         try:
@@ -414,10 +414,6 @@ class TumWriter(FileWriter):
             self.discard()
             raise
 
-    @property
-    def path(self) -> Path:
-        return self._path
-
     def __len__(self) -> int:
         return self._count
 
@@ -434,7 +430,7 @@ class TumWriter(FileWriter):
             try:
                 each.close()
             except OSError as cause:
-                raise write_fault(self._path, cause) from cause
+                raise write_fault(self.path, cause) from cause
 
     def abandon(self) -> None:
         for each in self._lists.values():
@@ -444,18 +440,18 @@ class TumWriter(FileWriter):
 
     def discard(self) -> None:
         self.abandon()
-        shutil.rmtree(self._path, ignore_errors=True)
+        shutil.rmtree(self.path, ignore_errors=True)
 
     def _store(self, kind: str, timestamp_s: float, data: bytes) -> None:
         name = f"{kind}/{timestamp_s:.6f}.png"
         try:
-            with open(self._path / name, "wb", opener=open_private) as file:
+            with open(self.path / name, "wb", opener=open_private) as file:
                 file.write(data)
             _append(self._lists[kind], f"{timestamp_s:.6f} {name}\n")
         except OSError as cause:
             with suppress(OSError):
-                (self._path / name).unlink()  # it may be torn, and is in no list
-            raise write_fault(self._path, cause) from cause
+                (self.path / name).unlink()  # it may be torn, and is in no list
+            raise write_fault(self.path, cause) from cause
 
 
 def _append(file: FileIO, text: str) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from carpus.core.model.types import FloatArray
-from carpus.core.session.label_checks import Correction, LabelDoubt, find_label_doubt, predict_marker_px
+from carpus.core.session.label_checks import Correction, predict_marker_px
 from carpus.core.session.values import Session
 
 SNAP_RADIUS_PX = 8.0
@@ -24,7 +24,6 @@ class MarkerEdits:
         self.markers = session.header.protocol.markers
         self._edits: dict[int, dict[str, MarkerPosition]] = {}
         self._undo_stack: list[tuple[int, dict[str, MarkerPosition]]] = []
-        self._doubts: dict[int, tuple[dict[str, MarkerPosition], LabelDoubt | None]] = {}
 
     # --- positions --------------------------------------------------------------------------------------
     def original_px(self, row: int) -> FloatArray:
@@ -71,19 +70,6 @@ class MarkerEdits:
             return ""
         return self.markers[int(np.nanargmin(distance))]
 
-    def find_label_doubt(self) -> tuple[int, LabelDoubt] | None:
-        """Return the first row with implausible labels and what is wrong, None if there is none."""
-        for row, positions in sorted(self._edits.items()):
-            known = self._doubts.get(row)
-            if known is None or known[0] != positions:
-                known = self._doubts[row] = (
-                    dict(positions),
-                    find_label_doubt(self.session, row, self.current_px(row), positions),
-                )
-            if known[1] is not None:
-                return row, known[1]
-        return None
-
     # --- changes -------------------------------------------------------------------------------------------
     def place_marker(self, row: int, name: str, pixel: FloatArray, blob_px: FloatArray) -> None:
         """Move a marker to a pixel, snapped to a blob of ``blob_px`` (S, 2).
@@ -105,18 +91,6 @@ class MarkerEdits:
             old = places[number]
             row_edits[self.markers[other]] = (float(old[0]), float(old[1])) if np.isfinite(old).all() else None
         row_edits[name] = (float(at[0]), float(at[1]))
-
-    def swap_markers(self, row: int, one: str, other: str) -> None:
-        places = self.current_px(row)
-        self._push_undo(row)
-        row_edits = self._edits.setdefault(row, {})
-        for name, there in ((one, other), (other, one)):
-            at, before = places[self.markers.index(there)], self.original_px(row)[self.markers.index(name)]
-            row_edits[name] = (float(at[0]), float(at[1])) if np.isfinite(at).all() else None
-            if np.array_equal(at, before, equal_nan=True):
-                del row_edits[name]  # as it was tracked
-        if not row_edits:
-            del self._edits[row]
 
     def hide_marker(self, row: int, name: str) -> None:
         self._push_undo(row)

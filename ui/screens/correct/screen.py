@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import ByteImage, FloatArray, TrackStatus
 from carpus.core.results.session_results import compute_session_results
-from carpus.core.session.label_checks import LabelDoubt
 from carpus.core.session.values import Session
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
@@ -68,8 +67,6 @@ class CorrectionScreen(FittedWidget):
         self.state = StateText(theme)
         self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.hint = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.anyway_button = Button(theme, self.tr("Re-analyse &anyway (uncertain)"), "quiet", height_px=32)
-        self.anyway_button.hide()
         self.rows: dict[str, MarkerRow] = {}
         self._rows = column_layout(gap=0)
         self.next_doubtful_button = Button(
@@ -95,7 +92,7 @@ class CorrectionScreen(FittedWidget):
         card.body.addWidget(Text(self._theme, self.tr("Distance to the expected position"), 14, SEMIBOLD))
         column = column_layout(self._rows, STRETCH)
         card.body.addWidget(scroll_column(column), 1)
-        fill(right, (card, 1), row_layout(self.hide_button, STRETCH), self.next_doubtful_button, self.anyway_button)
+        fill(right, (card, 1), row_layout(self.hide_button, STRETCH), self.next_doubtful_button)
         right.addLayout(row_layout((self.primary_button, 1), self.cancel_button, gap=12))
         self._column = QWidget()
         self._column.setLayout(right)
@@ -106,9 +103,7 @@ class CorrectionScreen(FittedWidget):
     def _fit(self) -> None:
         tight = is_tight(self, self._theme)
         self._column.setFixedWidth(self._theme.px(376))
-        self.next_doubtful_button.setVisible(
-            bool(self._find_doubtful_rows().size) and not self.anyway_button.isVisibleTo(self)
-        )
+        self.next_doubtful_button.setVisible(bool(self._find_doubtful_rows().size))
         self.primary_button.set_label(self.primary_button.text(), hint="" if tight else ENTER_KEY)
 
     def _connect(self) -> None:
@@ -117,12 +112,11 @@ class CorrectionScreen(FittedWidget):
         self.frame_view.empty_clicked.connect(self._place_current)
         self.scrubber.time_chosen.connect(self._show_time)
         self.transport.stepped.connect(self.step_frames)
-        self.primary_button.clicked.connect(self._run_primary)
+        self.primary_button.clicked.connect(self._request_reanalysis)
         self.cancel_button.clicked.connect(self.cancel_or_return)
         self.hide_button.clicked.connect(self.hide_current)
         self.next_doubtful_button.clicked.connect(self.show_next_doubtful)
-        self.anyway_button.clicked.connect(self._request_reanalysis)
-        for button in (self.hide_button, self.next_doubtful_button, self.anyway_button):
+        for button in (self.hide_button, self.next_doubtful_button):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         actions = {
             "correct_back": lambda: self.step_frames(-1), "correct_on": lambda: self.step_frames(1),
@@ -242,28 +236,13 @@ class CorrectionScreen(FittedWidget):
         if not self.frame_view.cancel_drag():
             self.back_requested.emit()
 
-    def _run_primary(self) -> None:
-        """Correct implausible labels if there are any, else request the re-analysis."""
-        if self.edits is None or not self.edits.corrections():
-            return
-        found = self.edits.find_label_doubt()
-        if found is None:
-            self._request_reanalysis()
-        elif found[1].swapped is not None:
-            self.edits.swap_markers(found[0], *found[1].swapped)
-            self.show_row(found[0])
-        elif found[0] != self.row:
-            self.show_row(found[0])
-        else:
-            self.undo()
-
     def _request_reanalysis(self) -> None:
         if self.edits is not None and self.edits.corrections():
             self.reanalysis_requested.emit(self._session_id, self.edits.corrections())
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.primary_button.isEnabled():
-            self._run_primary()
+            self._request_reanalysis()
         elif event.key() in ARROWS and self.current_marker:
             self._nudge_marker(event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
         else:
@@ -318,34 +297,9 @@ class CorrectionScreen(FittedWidget):
         self.primary_button.setEnabled(some)
         first = places.corrections()[0].row if some else 0
         again = self.tr("Re-analyse from {time}").format(time=numbers.format_clock_tenths(float(self._time_s[first])))
-        found = places.find_label_doubt()
-        self.anyway_button.setVisible(found is not None)
-        self.next_doubtful_button.setVisible(bool(self._find_doubtful_rows().size) and found is None)
-        if found is not None:
-            self._show_doubt(*found)
-        else:
-            self.primary_button.set_label(again if some else self.tr("Nothing corrected yet"))
+        self.next_doubtful_button.setVisible(bool(self._find_doubtful_rows().size))
+        self.primary_button.set_label(again if some else self.tr("Nothing corrected yet"))
         self.setAccessibleName(self.title.text())
-
-    def _show_doubt(self, row: int, doubt: LabelDoubt) -> None:
-        """Show what is implausible about the labels and offer a remedy."""
-        at = numbers.format_clock_tenths(float(self._time_s[row]))
-        self.state.show_state("warn", self.tr("Check the labels at {time}").format(time=at))
-        if doubt.swapped is not None:
-            one, other = (marker_title(name) for name in doubt.swapped)
-            self.title.setText(self.tr("“{one}” and “{other}” appear swapped").format(one=one, other=other))
-            self.hint.setText(self.tr("All later angles would be wrong. Swap the two labels?"))
-            self.primary_button.set_label(self.tr("Swap the labels"))
-            return
-        words = self.tr("“{marker}” cannot be there").format(marker=marker_title(doubt.misplaced))
-        self.title.setText(words)
-        far = self.tr(
-            "This spot is {size} mm from the position that fits the other markers. It may be another marker, or no "
-            "marker."
-        )
-        self.hint.setText(far.format(size=format_rounded(1000.0 * doubt.offset_m)))
-        here = row == self.row
-        self.primary_button.set_label(self.tr("Undo the last step") if here else self.tr("Show that frame"))
 
 
 ROW_PX = 34

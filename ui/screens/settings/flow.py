@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QPlainTextEdit, QWidget
 
 from carpus.core.measures.change_limits import RetestStudy
 from carpus.core.model.errors import CarpusFault
-from carpus.core.platform.about import find_latest_version, licence_texts
+from carpus.core.platform.about import licence_texts
 from carpus.core.records.limits_file import save_limits
 from carpus.core.research.agreement.retest import RetestAnalysis, analyse_retests
 from carpus.core.results.session_results import SessionResults
@@ -29,18 +29,16 @@ ReadFiguresFunction = Callable[
 
 
 class SettingsFlow(Flow):
-    """Controller of the settings; ``updates`` is the clinic's update folder, empty if none."""
+    """Controller of the settings."""
 
     screen_name, guide_page = "settings", "data"
     screen: SettingsScreen
 
-    def __init__(
-        self, context: ScreenContext, chosen: Preferences, updates: str, read_figures: ReadFiguresFunction
-    ) -> None:
+    def __init__(self, context: ScreenContext, chosen: Preferences, read_figures: ReadFiguresFunction) -> None:
         measured = context.library.error_limits
         super().__init__(context, SettingsScreen(context.theme, chosen, measured))
         self.screen.demo_notice.setVisible(context.is_demo)
-        self._updates, self._background, self._read_figures = updates, Background(), read_figures
+        self._background, self._read_figures = Background(), read_figures
         self.retest_dialog = RetestDialog(context.window, context.theme)
         self.retest_dialog.accepted.connect(self._apply_limits)
         self.screen.retest_button.clicked.connect(self._compute_limits)
@@ -54,18 +52,6 @@ class SettingsFlow(Flow):
         if part is not None:
             self.screen.show_page(part)
         self.context.navigator.open_overlay("settings")
-        self._check_for_update()
-
-    def _check_for_update(self) -> None:
-        """Look for a newer version in the clinic's update folder only."""
-        folder, screen = self._updates, self.screen
-        if folder:
-            self._background.run(
-                lambda: find_latest_version(Path(folder).expanduser()),
-                lambda newest: screen.show_available_version(folder, newest),
-                lambda _: screen.show_available_version(folder, None),
-                screen,
-            )
 
     def _compute_limits(self) -> None:
         """Compute MDC95 from the sessions of a folder, in the background."""

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QStackedWidg
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.model.phrase import LANGUAGES
 from carpus.core.model.rounding import format_rounded
-from carpus.core.platform.about import is_newer
 from carpus.core.platform.version import __version__
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
@@ -159,14 +158,13 @@ class SettingsScreen(QWidget):
             "Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. "
             "Back up, then install it over this one. Patients, sessions and settings stay."
         )
-        self.update_text = Text(theme, words, 14, REGULAR, "text2", wrap=True)
         self.licences_button = Button(theme, self.tr("Components and licences"), height_px=40)
         return self._make_card(
             self.tr("About Carpus"),
             "",
             Text(theme, self.tr("Version {version}, MIT licence.").format(version=__version__), 14),
             Text(theme, terms.legal_notice(), 14, SEMIBOLD, wrap=True),
-            self.update_text,
+            Text(theme, words, 14, REGULAR, "text2", wrap=True),
             (self.licences_button, 0, Qt.AlignmentFlag.AlignLeft),
         )
 
@@ -233,19 +231,6 @@ class SettingsScreen(QWidget):
         card.add_heading(title, words)
         fill(card.body, *parts)
         return card
-
-    def show_available_version(self, folder: str, newest: str | None) -> None:
-        """Show the newest version in the update folder; None if it cannot be read."""
-        if newest is None:
-            words = self.tr("The update folder cannot be read: {folder}.")
-        elif is_newer(newest, __version__):
-            words = self.tr(
-                "Version {newest} is available in {folder}. Back up, then install it over this one. Patients, "
-                "sessions and settings stay."
-            )
-        else:
-            words = self.tr("There is no newer version in {folder}.")
-        self.update_text.setText(words.format(folder=folder, newest=newest))
 
     def _apply_preferences(self, preferences: Preferences) -> None:
         if preferences != self.preferences:
