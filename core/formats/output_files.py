@@ -17,6 +17,7 @@ from typing import IO, Any, Protocol
 
 from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.platform.durable import open_private, write_fault
+from carpus.core.session.atomic_files import publish
 
 PART_SUFFIX = ".half"
 _FORMULA_STARTS = tuple("=+-@\t\r\n")
@@ -47,17 +48,7 @@ def open_new_file(path: Path, *, overwrite: bool = False) -> Iterator[IO[bytes]]
             if overwrite:
                 half.replace(path)
             else:
-                # rename without replacing; on file systems without links after a check
-                try:
-                    os.link(half, path)
-                except FileExistsError:
-                    raise
-                except OSError:
-                    if path.exists():
-                        raise FileExistsError(path) from None
-                    half.rename(path)
-        except FileExistsError as cause:
-            raise OutputExists(path) from cause
+                publish(half, path)
         except OSError as cause:
             raise write_fault(path, cause) from cause
     finally:

@@ -42,7 +42,7 @@ def _tracked_frames(take: ExportItem) -> Iterator[TrackedFrame]:
     if take.source_camera is not None and take.source_camera != session.camera:
         table = _move_detections(table, take.source_camera, session.camera)
     count = len(session.header.protocol.markers)
-    no_pixel, no_cov = np.full((count, 2), np.nan), np.full((count, 2, 2), np.nan)
+    no_pixel = np.full((count, 2), np.nan)
     for row, moment in enumerate(iter_states(session.motion)):
         yield TrackedFrame(
             index=row,
@@ -51,7 +51,6 @@ def _tracked_frames(take: ExportItem) -> Iterator[TrackedFrame]:
             kinematics=moment,
             marker_position_cam_m=markers.position_cam_m[row],
             marker_predicted_px=no_pixel,
-            marker_predicted_cov_px2=no_cov,
             marker_measured_px=markers.measured_px[row],
             marker_measured_depth_m=markers.measured_depth_m[row],
             detections=table.get_frame(row),

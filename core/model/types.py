@@ -170,8 +170,8 @@ class TrackedFrame:
     """The result of one frame; the row of every dataset of the session file.
 
     M markers of the protocol; unknown is NaN. ``marker_position_cam_m`` (M, 3); ``marker_predicted_px`` (M, 2) before
-    the update, with its covariance ``marker_predicted_cov_px2`` (M, 2, 2); ``marker_measured_px`` (M, 2) and
-    ``marker_measured_depth_m`` (M,) of the blob associated with the marker. ``measured_share`` (3,) or (J,) is the
+    the update; ``marker_measured_px`` (M, 2) and ``marker_measured_depth_m`` (M,) of the blob associated with the
+    marker. ``measured_share`` (3,) or (J,) is the
     share of direct measurement in the last second; ``nis`` the normalised innovation squared with ``nis_dof`` degrees
     of freedom; ``loss_reason`` (not stored) while the track is lost. ``doubted`` (M,) markers whose measurements
     contradict the estimate; ``is_rejected`` (D,) detections that a person said are no marker (not used, not stored).
@@ -184,7 +184,6 @@ class TrackedFrame:
     kinematics: KinematicState
     marker_position_cam_m: FloatArray
     marker_predicted_px: FloatArray
-    marker_predicted_cov_px2: FloatArray
     marker_measured_px: FloatArray
     marker_measured_depth_m: FloatArray
     detections: Detections

@@ -200,7 +200,6 @@ def _true_frame(truth: Truth, i: int) -> TrackedFrame:
         ),
         marker_position_cam_m=truth.marker_position_cam_m[i],
         marker_predicted_px=truth.marker_px[i],
-        marker_predicted_cov_px2=np.zeros((len(visible), 2, 2)),
         marker_measured_px=pixel,
         marker_measured_depth_m=depth,
         detections=Detections.none(),

@@ -59,10 +59,8 @@ class TrackedFrameBuilder:
         order: MarkerOrder,
         model: FingerModel | None,
         readout: Readout,
-        settings: TrackerSettings,
     ) -> None:
         self._order, self._model, self._readout = order, model, readout
-        self._pixel_noise_px2 = settings.noise.pixel_sd_px**2 * np.eye(2)
         self._markers = len(protocol.markers)
         joint_count = 0 if model is None else model.readout.angle_map.chain.size
         self.lost_state: KinematicState = nan_kinematics(joint_count, self._markers)
@@ -94,7 +92,7 @@ class TrackedFrameBuilder:
             measured_depth_m = np.where(blob >= 0, detections.depth_m.take(blob), np.nan)
         else:
             measured_px, measured_depth_m = np.full((blob.size, 2), np.nan), np.full(blob.size, np.nan)
-        pixel, covariance = predicted.mean[:, :2], predicted.covariance[:, :2, :2]
+        pixel = predicted.mean[:, :2]
         disc_cam_m = predicted.view.discs_cam_m(posterior.estimate)
         residual_norm2 = np.vecdot(palm.raw_residual, palm.raw_residual)
         nis, dof = palm.nis, palm.dof
@@ -103,7 +101,6 @@ class TrackedFrameBuilder:
         kinematics = self._readout.read_kinematics(posterior.estimate)
         if fingers is not None and joints is not None:
             pixel = order.to_protocol_order(pixel, fingers.prediction_px)
-            covariance = order.to_protocol_order(covariance, fingers.prediction_cov_px2)
             disc_cam_m = order.to_protocol_order(disc_cam_m, joints.disc_cam_m)
             residual_norm2 = order.to_protocol_order(residual_norm2, fingers.residual_norm2)
         if joints is not None:
@@ -130,7 +127,6 @@ class TrackedFrameBuilder:
             kinematics=kinematics,
             marker_position_cam_m=disc_cam_m,
             marker_predicted_px=camera.distort(pixel),
-            marker_predicted_cov_px2=covariance + self._pixel_noise_px2,
             marker_measured_px=measured_px,
             marker_measured_depth_m=measured_depth_m,
             detections=detections,
@@ -180,7 +176,7 @@ class Tracker:
         self._manager = TrackManager(MIN_FOUND_MARKERS, settings.lost_after_s, has_digits=protocol.has_fingers)
         self._labels = OperatorLabels(self.markers)
         model = None if self._filter.fingers is None else self._filter.fingers.model
-        self._frame_builder = TrackedFrameBuilder(protocol, self._filter.order, model, self._filter.readout, settings)
+        self._frame_builder = TrackedFrameBuilder(protocol, self._filter.order, model, self._filter.readout)
         palm = palm_calibration(calibration)
         self.record = SmootherRecord(
             SmootherModel(

@@ -102,7 +102,6 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
         ),
         marker_position_cam_m=blank * rng.normal(size=(m, 3)),
         marker_predicted_px=rng.normal(size=(m, 2)),
-        marker_predicted_cov_px2=rng.normal(size=(m, 2, 2)),
         marker_measured_px=measured,
         marker_measured_depth_m=rng.uniform(0.6, 0.9, m),
         detections=Detections(*(rng.uniform(0, 1, shape) for shape in ((blobs, 2), blobs, blobs, blobs, blobs))),

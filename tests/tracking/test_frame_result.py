@@ -18,7 +18,7 @@ from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
 def test_row_unused_marker_is_doubted_until_reset() -> None:
     settings = TrackerSettings()
     own = HandFilter(calibration(), CAMERA, settings)
-    results = TrackedFrameBuilder(WRIST6, own.order, None, own.readout, settings)
+    results = TrackedFrameBuilder(WRIST6, own.order, None, own.readout)
     seen = blobs(Pose())
     beside = replace(seen, pixel=seen.pixel + np.where(np.arange(6) == MCP3, 6.5, 0.0)[:, None] * [0.8, 0.6])
 

@@ -37,7 +37,7 @@ def board_result() -> BoardResult:
     """A camera whose depth read too short."""
     corners = np.full((FIELDS[1], FIELDS[0]), 80)
     found = Intrinsics(LENS, 0.5, 0.6, 0.21, np.zeros((20, 3)), np.zeros((20, 3)), tuple(range(20)))
-    depth = DepthCheck(0.996, 0.001, 0.0006, 0.0003, np.array([0.9, 0.6]), 0.1, 0.0011, 20)
+    depth = DepthCheck(0.996, 0.001, 0.0006, 0.0003, np.array([0.9, 0.6]), 0.1, 20)
     judged = ViewCoverage(20, corners, frozenset(("left", "right", "top", "bottom")), 0.47, 0.84)
     return BoardResult(CameraCalibration(DEFAULT_CAMERA, found, depth, judged, CHESSBOARD.name()), "1210130114")
 

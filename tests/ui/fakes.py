@@ -131,7 +131,6 @@ def tracked_frames(
                 ),
                 marker_position_cam_m=truth.marker_position_cam_m[k] * unknown,
                 marker_predicted_px=truth.marker_px[k] * unknown,
-                marker_predicted_cov_px2=np.eye(2)[None] * (4.0 + 30.0 * covered_since[:, None, None]) * unknown,
                 marker_measured_px=measured,
                 marker_measured_depth_m=np.where(
                     np.isfinite(measured[:, 0]), truth.marker_position_cam_m[k][:, 2], math.nan

@@ -206,7 +206,6 @@ class ViewCollector:
         self.views: list[BoardView] = []
         self._last: tuple[float, DetectedBoard] | None = None
         self._last_search_s = float("-inf")
-        self.searched_count, self.detected_count = 0, 0
 
     @property
     def coverage(self) -> ViewCoverage:
@@ -222,13 +221,11 @@ class ViewCollector:
         if frame.timestamp_s - self._last_search_s < SEARCH_INTERVAL_S or len(self.views) >= MAX_VIEWS:
             return None
         self._last_search_s = frame.timestamp_s
-        self.searched_count += 1
         found = find_board(frame.color_rgb, self._board)
         before, self._last = self._last, None if found is None else (frame.timestamp_s, found)
         if found is None:
             brightness = float(np.percentile(frame.color_rgb[::8, ::8].max(axis=2), 90))
             return BoardFrame(None, "dark" if brightness < MIN_BRIGHTNESS else "no_board")
-        self.detected_count += 1
         view = to_board_view(found, self._camera, frame.depth_raw, frame.depth_unit_m)
         if view is None:
             return BoardFrame(found, "too_tilted")

@@ -52,7 +52,7 @@ class DepthCheck:
     """Measured against true depth, with standard deviations.
 
     The offset is 0, its standard deviation NaN, if none is significant. ``registration_error_px`` (2,) is the offset of
-    depth against colour, ``plane_scatter_m`` the scatter of the readings about the board's plane.
+    depth against colour.
     """
 
     scale: float
@@ -61,7 +61,6 @@ class DepthCheck:
     offset_sd_m: float
     registration_error_px: FloatArray
     registration_sd_px: float
-    plane_scatter_m: float
     view_count: int
 
     @property
@@ -72,7 +71,7 @@ class DepthCheck:
     def sentence(self) -> str:
         """Return one sentence for people.
 
-        >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 0.001, 20).sentence()
+        >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 20).sentence()
         'Depth reads 0.4 % too short.'
         """
         share = 100.0 * (self.scale - 1.0)
@@ -100,13 +99,11 @@ def estimate_depth_error(views: Sequence[BoardView], intrinsics: Intrinsics, sen
         # An uncertain offset only makes the scale less certain.
         values, sd = _fit_with_sd(known, False, sensor)
         with_offset = False
-    scatter = np.concatenate([block[:, 0] - _design_matrix(block, with_offset) @ values for block in known])
-    flat_m = 1.4826 * float(np.median(np.abs(scatter)))
     offset, offset_sd = (float(values[3]), float(sd[3])) if with_offset else (0.0, math.nan)
     apart_sd = float(sd[1:3].max())
     # An error of the focal length changes every true distance by the same share.
     scale_sd = math.hypot(float(sd[0]), intrinsics.focal_sd_px / intrinsics.camera.fx_px)
-    return DepthCheck(float(values[0]), scale_sd, offset, offset_sd, values[1:3], apart_sd, flat_m, len(known))
+    return DepthCheck(float(values[0]), scale_sd, offset, offset_sd, values[1:3], apart_sd, len(known))
 
 
 def _fit_with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> tuple[FloatArray, FloatArray]:

@@ -330,7 +330,6 @@ class PaperTracker:
             kinematics=self._read_kinematics(updated.state),
             marker_position_cam_m=self._discs_cam_m(mean[None])[0],
             marker_predicted_px=camera.distort(predicted_px),
-            marker_predicted_cov_px2=predicted_cov_px2,
             marker_measured_px=measured_px,
             marker_measured_depth_m=measured_depth_m,
             detections=detections,

@@ -44,8 +44,6 @@ from carpus.core.tracking.filter.mixture_filter import ModeMixture
 from carpus.core.tracking.filter.predicted_measurement import PredictedDigits, adapt_noise_factor
 from carpus.core.tracking.filter.settings import AssociationSettings, TrackerSettings
 
-_UV = 3 * np.arange(N_DISCS)[:, None] + np.arange(2)
-
 MAX_MISSING_FRAMES = 2  # for which a digit may show fewer than two discs before it is searched
 EXTRA_LINEARISATIONS = 2  # of h, of a digit found far from where it was predicted, about what its discs say
 MISS_PROBABILITY = 0.1  # that a disc in sight has no blob
@@ -88,11 +86,6 @@ class DigitPosterior:
     def prediction_px(self) -> FloatArray:
         """Predicted pixels (5, 3, 2) of the discs, given the palm."""
         return self.scene.linearised.value.reshape(N_DIGITS, N_DISCS, 3)[..., :2]
-
-    @property
-    def prediction_cov_px2(self) -> FloatArray:
-        """Covariance (5, 3, 2, 2) of the predicted pixels."""
-        return self.scene.image_covariance[:, _UV[:, :, None], _UV[:, None, :]]
 
     @property
     def residual_norm2(self) -> FloatArray:

@@ -199,7 +199,6 @@ def build_lost_frame(
         kinematics=kinematics,
         marker_position_cam_m=np.full((marker_count, 3), np.nan),
         marker_predicted_px=per_marker,
-        marker_predicted_cov_px2=np.full((marker_count, 2, 2), np.nan),
         marker_measured_px=per_marker,
         marker_measured_depth_m=np.full(marker_count, np.nan),
         detections=detections,
