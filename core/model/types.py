@@ -7,7 +7,6 @@ pose (origin WRIST marker, X to MCP3, Z out of the back of the hand, Y = Z x X),
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum
 from typing import Literal
@@ -202,10 +201,6 @@ class TrackedFrame:
             object.__setattr__(self, "is_rejected", np.zeros(len(self.detections), dtype=np.bool_))
 
 
-# The event of a session in which a person said which blob is a marker, or that one is none.
-OPERATOR_LABEL = "spot_said"
-
-
 @dataclass(frozen=True, slots=True)
 class MarkerLabel:
     """A person's answer: ``marker`` is the blob at ``pixel``.
@@ -218,25 +213,3 @@ class MarkerLabel:
     marker: str
     pixel: tuple[float, float] | None
     rejected_px: tuple[tuple[float, float], ...] = ()
-
-    def to_json(self) -> str:
-        """Return the answer as the text of a session's event."""
-        told: dict[str, object] = {"marker": self.marker}
-        told["at"] = None if self.pixel is None else _round_pixel(self.pixel)
-        told["not"] = [_round_pixel(place) for place in self.rejected_px]
-        return json.dumps(told, sort_keys=True)
-
-    @staticmethod
-    def from_json(text: str, index: int) -> MarkerLabel | None:
-        """Return the answer in an event's text; None where it cannot be read."""
-        try:
-            told = json.loads(text)
-            at = told["at"]
-            place = None if at is None else (float(at[0]), float(at[1]))
-            return MarkerLabel(index, str(told["marker"]), place, tuple((float(u), float(v)) for u, v in told["not"]))
-        except (ValueError, TypeError, KeyError, IndexError):
-            return None
-
-
-def _round_pixel(place: tuple[float, float]) -> list[float]:
-    return [round(place[0], 1), round(place[1], 1)]

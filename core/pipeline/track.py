@@ -36,13 +36,11 @@ from carpus.core.model.depth_sensor import ASSUMED
 from carpus.core.model.errors import FrameDamaged, OutputExists, RecordingEmpty
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import (
-    OPERATOR_LABEL,
     SIMULATED,
     Detections,
     FloatArray,
     Frame,
     KinematicState,
-    MarkerLabel,
     TrackedFrame,
     TrackStatus,
 )
@@ -77,9 +75,6 @@ class HandTracker(Protocol):
 
     def is_search_incomplete(self, blobs: Detections) -> bool:
         """Return whether the whole image has to be searched after all."""
-
-    def add_operator_label(self, label: MarkerLabel) -> None:
-        """Add an operator's label of a frame's blobs."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Track one frame by its blobs."""
@@ -118,23 +113,13 @@ class FramePipeline(Generic[AnyTracker]):
 
 SMOOTHING_FAILED = "not_looked_back"
 """Event of a session whose smoothing failed."""
+_PROCESSING_EVENTS = (SMOOTHING_FAILED, "spot_said")
+"""The second is a label given while Carpus 0.2.0 measured, which is not applied again."""
 
 
 def session_notes(session: Session) -> list[Event]:
     """Return the events of a session, without those of its processing."""
-    return [event for event in session.events if event.kind != SMOOTHING_FAILED]
-
-
-def read_operator_labels(session: Session) -> dict[int, list[MarkerLabel]]:
-    """Return the operator's labels by the row of the frame that applied them."""
-    labels: dict[int, list[MarkerLabel]] = {}
-    for event in session.events:
-        if event.kind == OPERATOR_LABEL and len(session):
-            row = int(abs(session.timestamp_s - event.time_s).argmin())
-            label = MarkerLabel.from_json(event.text, row)
-            if label is not None:
-                labels.setdefault(row, []).append(label)
-    return labels
+    return [event for event in session.events if event.kind not in _PROCESSING_EVENTS]
 
 
 class SessionFrames:
@@ -421,7 +406,7 @@ def track_recording(
     path: Path | None = None,
     on_date: Callable[[RecordingDate | None], None] | None = None,
     listener: Listener | None = None,
-    labelled_session: Session | None = None,
+    notes: Iterable[Event] = (),
 ) -> TrackReport:
     """Track a recording from its first frame to its last into ``output``; smooth it if wanted.
 
@@ -454,8 +439,8 @@ def track_recording(
         Receives the date that is used.
     listener : Listener, optional
         Receives every tracked frame.
-    labelled_session : Session, optional
-        Session of the same frames whose notes and labels are applied again.
+    notes : iterable of Event
+        Events of an earlier result that the session takes over.
     """
     if output.exists():
         raise OutputExists(output)
@@ -480,19 +465,16 @@ def track_recording(
         recording_id=compute_recording_id(source.info, start.first_frame),
     )
     writer = SessionWriter.create(output, header, source.info.camera, start.calibration)
-    labels = {} if labelled_session is None else read_operator_labels(labelled_session)
 
     def track_frames() -> Iterator[TrackedFrame]:
         for frame in start.frames:
-            for label in labels.get(frame.index, ()):
-                start.pipeline.tracker.add_operator_label(label)
             tracked = start.pipeline(frame)
             if listener is not None:
                 listener.on_frame(tracked)
             yield tracked
 
-    notes, verdict = () if labelled_session is None else session_notes(labelled_session), start.calibration.verdict
-    return write_tracked(writer, track_frames(), start.smooth, verdict, source.info.frame_count, progress, notes)
+    count, verdict = source.info.frame_count, start.calibration.verdict
+    return write_tracked(writer, track_frames(), start.smooth, verdict, count, progress, notes)
 
 
 def retrack_session(
@@ -506,7 +488,7 @@ def retrack_session(
     """Track a session again, from its stored images if there are any, else from its detections.
 
     From detections the session's calibration and neutral noise are used again, so that equal settings give equal
-    angles. Notes and labels are applied again. The old file is not changed; the new one names it as its origin.
+    angles. Notes are taken over. The old file is not changed; the new one names it as its origin.
     """
     if output.exists():
         raise OutputExists(output)
@@ -527,7 +509,7 @@ def retrack_session(
             set_up=old.set_up,
             recorded=RecordingDate(old.recorded, "recording"),
             path=origin,
-            labelled_session=session,
+            notes=session_notes(session),
         )
     table = read_detections(origin)
     noise = session_noise(session, settings)
@@ -543,12 +525,10 @@ def retrack_session(
 def retrack_frames(
     session: Session, tracker: HandTracker, noise: NeutralNoise, detections_of: Callable[[int], Detections]
 ) -> Iterator[TrackedFrame]:
-    """Track the stored detections of each row of a session, with the operator's labels."""
-    times_s, labels = session.timestamp_s.tolist(), read_operator_labels(session)
+    """Track the stored detections of each row of a session."""
+    times_s = session.timestamp_s.tolist()
     for row in restart_at_neutral(range(len(session)), tracker, noise.neutral_ends_s, times_s.__getitem__):
         blobs = detections_of(row)
-        for label in labels.get(row, ()):
-            tracker.add_operator_label(label)
         yield tracker.step(row, times_s[row], blobs, max(int(session.quality.dropped_before[row]), 0))
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.model import so3
 from carpus.core.model.camera import Camera
-from carpus.core.model.types import BoolArray, Detections, FloatArray
+from carpus.core.model.types import Detections, FloatArray
 from carpus.core.tracking.association.association import is_jointly_compatible
 from carpus.core.tracking.association.operator_labels import LabelledBlob
 from carpus.core.tracking.association.palm_association import (
@@ -63,7 +63,6 @@ from carpus.core.tracking.filter.predicted_measurement import (
     PredictedMeasurement,
     adapt_noise_factor,
     depth_bias_matrix,
-    predict_measurement,
     predict_measurement_ahead,
     shape_covariance,
 )
@@ -82,69 +81,8 @@ from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.smoother.palm_smoother import FilterStep
 
-_REREAD_NOISE_FACTOR = 2.0  # The frame is used once more right after: half of its weight now, half then.
-
-
-def reinitialise_disc(
-    predicted: PredictedMeasurement,
-    view: PalmView,
-    disc: int,
-    blob: int,
-    blobs: Measurements,
-    settings: TrackerSettings,
-) -> tuple[PalmEstimate, ModeMixture, PalmView]:
-    """Place a disc of the palm (its row of 6) at a blob.
-
-    Returns
-    -------
-    estimate, mixture : PalmEstimate, ModeMixture
-        The state with the disc there.
-    view : PalmView
-        The view to go on with.
-    """
-    u_px, v_px, depth_m = blobs.value[blob]
-    depth_m = depth_m if np.isfinite(depth_m) else float(predicted.mean[disc, 2])
-    estimate = predicted.nominal
-    in_camera = view.camera.backproject(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
-    in_w0 = view.rotation_w0_cam.T @ (in_camera - view.translation_w0_cam_m)
-    on_palm_m = estimate.rotation_w2_w0.T @ (in_w0 - estimate.position_m)
-
-    shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
-    own = np.concatenate((shape, skin))
-    fresh = np.zeros((6, 6))
-    fresh[:3, :3] = PLACED_DISC_SD_M**2 * np.eye(3)
-    fresh[3:, 3:] = stationary_covariance(settings.tissue)[skin[:, None], skin]
-    value = estimate.value.copy()
-    value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0
-    estimate = PalmEstimate(estimate.rotation_w2_w0, value, _with_block(estimate.covariance, own, fresh))
-    mean = predicted.mixture.mean.copy()
-    mean[..., own] = 0.0
-    mixture = ModeMixture(mean, _with_block(predicted.mixture.covariance, own, fresh), predicted.mixture.probability)
-
-    # How wrong its depth was at the calibration says nothing of it any more.
-    depth_bias = view.depth_bias.copy()
-    depth_bias[disc, 3 * disc : 3 * disc + 3] = 0.0
-    view = replace(view, depth_bias=depth_bias)
-    assigned: NDArray[np.int64] = np.full(len(predicted.mean), -1, dtype=np.int64)
-    assigned[disc] = blob
-    with_depth: BoolArray = (assigned >= 0) & np.isfinite(blobs.value[blob, 2])
-    whole = predict_measurement(estimate, mixture, view, settings.scaling)
-    measured = update_palm(whole, blobs, assigned, with_depth, np.full((assigned.size, 3), _REREAD_NOISE_FACTOR))
-    return *reset_error(estimate, measured.mixture), view
-
-
-def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArray) -> FloatArray:
-    """Set a block of a covariance (..., n, n), its rows uncorrelated with all others."""
-    out = covariance.copy()
-    out[..., rows, :] = 0.0
-    out[..., :, rows] = 0.0
-    out[..., rows[:, None], rows] = block
-    return out
-
-
 # predicted less surely, the hand is turned by its markers before the surface is fitted
 JOINT_SD_RAD = 0.05
-PLACED_DISC_SD_M = 0.02  # of a disc that a person placed, about where the one frame shows it: more than any depth errs
 _MIN_DEPTH_M = 0.1  # no camera sees a hand nearer: keeps the size of a disc finite
 
 
@@ -223,7 +161,6 @@ class HandFilter:
         self._stationary = stationary_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._noise_factor = np.ones((rows.size, 3))
-        self._is_reinitialised = np.zeros(rows.size, dtype=bool)
         self._prediction: tuple[object, object, float, PredictedMeasurement] | None = None
         self.begin_at_neutral()
 
@@ -232,7 +169,6 @@ class HandFilter:
         self._learnt_covariance = self._calibrated_covariance
         start = initial_estimate(self._settings.initial, self._learnt_covariance)
         self.start(start, self.motion.initial_probability)
-        self._is_reinitialised[:] = False
         if self.fingers is not None:
             self.fingers.begin_at_neutral()
 
@@ -385,15 +321,7 @@ class HandFilter:
         shapes = SHAPE.stop - SHAPE.start
         disc_covariance = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
         is_in_reach = None if self.fingers is None else self.fingers.is_in_reach
-        return find_palm(ideal, self._current_view, disc_covariance, turn_limits, is_in_reach)
-
-    @property
-    def _current_view(self) -> PalmView:
-        """The palm as calibrated, but for discs that a person placed elsewhere."""
-        if not self._is_reinitialised.any():
-            return self.view
-        shape_m = self._learnt_error[: SHAPE.stop - SHAPE.start].reshape(-1, 3)
-        return replace(self.view, palm_m=self.view.palm_m + np.where(self._is_reinitialised[:, None], shape_m, 0.0))
+        return find_palm(ideal, self.view, disc_covariance, turn_limits, is_in_reach)
 
     def estimate_from_found(self, found: FoundPalm) -> PalmEstimate:
         """Return the state estimate of a palm found without a prediction."""
@@ -419,30 +347,12 @@ class HandFilter:
         assigned, rest = posterior.palm.assigned, ~posterior.is_finger
         is_assigned = np.zeros(rest.size, dtype=bool)
         is_assigned[assigned[assigned >= 0]] = True
-        return is_other_hand(scan.ideal.subset(rest), is_assigned[rest], self._current_view)
+        return is_other_hand(scan.ideal.subset(rest), is_assigned[rest], self.view)
 
     def predict_from_found(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
         """Return the predicted measurement of a palm where it was found."""
         estimate = self.estimate_from_found(found)
         return predicted.with_estimate(estimate, self._resting_mixture(estimate))
-
-    def place_marker(
-        self, label: LabelledBlob, predicted: PredictedMeasurement, scan: Scan
-    ) -> PredictedMeasurement | None:
-        """Return the prediction with a disc of the palm where a person labelled it.
-
-        None for a disc of a finger.
-        """
-        if label.marker not in self.order.palm:
-            return None
-        disc = int(np.flatnonzero(self.order.palm == label.marker)[0])
-        estimate, mixture, self.view = reinitialise_disc(
-            predicted, self.view, disc, label.blob, scan.blobs, self._settings
-        )
-        self._noise_factor[disc] = 1.0
-        self._is_reinitialised[disc] = True
-        self._palm = estimate, mixture
-        return predicted.with_estimate(estimate, mixture, self.view)
 
     def restart_labelled_digit(self, label: LabelledBlob) -> None:
         """Restart the digit of which a person has labelled a disc."""

@@ -247,13 +247,9 @@ class Tracker:
         dt_s = self._manager.time_step_s(timestamp_s)
         if label is not None:
             self._filter.restart_labelled_digit(label)
+            self._frame_builder.reset_consistency()
         predicted = self._filter.predict(dt_s)
         scan = self._filter.build_scan(predicted, ideal, timestamp_s, dt_s)
-        if label is not None:
-            self._frame_builder.reset_consistency()
-            placed = self._filter.place_marker(label, predicted, scan)
-            if placed is not None:
-                predicted, is_linked = placed, False
         posterior, turn_sd_rad = self._filter.update(predicted, scan), predicted.turn_sd_rad
         reacquired = self._reacquire(posterior, scan)
         if reacquired is not None:

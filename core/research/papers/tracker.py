@@ -27,7 +27,7 @@ from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand import clinical_angles
 from carpus.core.model.hand.protocols import SITES, joint_angle_names, markers_at_joint
-from carpus.core.model.types import Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame, TrackStatus
+from carpus.core.model.types import Detections, FloatArray, KinematicState, TrackedFrame, TrackStatus
 from carpus.core.research.papers.hand_model import PaperSettings, measure_hand
 from carpus.core.tracking.filter.readout import build_lost_frame, nan_kinematics
 from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_sigma_offsets, compute_weights
@@ -261,9 +261,6 @@ class PaperTracker:
     def is_search_incomplete(self, blobs: Detections) -> bool:
         """Return False: no search is narrowed."""
         return False
-
-    def add_operator_label(self, label: MarkerLabel) -> None:
-        """Ignore the label: this filter is as written."""
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Predict, associate, update; return the frame's result."""

@@ -173,12 +173,9 @@ class PredictedMeasurement:
     digits: PredictedDigits | None = None
     order: MarkerOrder | None = None
 
-    def with_estimate(
-        self, nominal: PalmEstimate, mixture: ModeMixture, view: PalmView | None = None
-    ) -> PredictedMeasurement:
+    def with_estimate(self, nominal: PalmEstimate, mixture: ModeMixture) -> PredictedMeasurement:
         """Return the predicted measurement at the same moment for another state."""
-        view = self.view if view is None else view
-        return predict_measurement(nominal, mixture, view, self.scaling, self.partial, self.digits, self.order)
+        return predict_measurement(nominal, mixture, self.view, self.scaling, self.partial, self.digits, self.order)
 
     def mode_predictions(self) -> tuple[FloatArray, FloatArray]:
         """Return mean (K, 18), eq. (10), and covariance (K, 18, 18), eq. (11), in every mode.
