@@ -24,8 +24,8 @@ from pathlib import Path
 import numpy as np
 
 from carpus import __version__
+from carpus.core.calibration.calibrate import CalibrationSettings
 from carpus.core.calibration.clicks_file import read_clicks
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.model.errors import CalibrationImpossible, CarpusFault
 from carpus.core.model.hand.exercises import EXERCISES, Exercise, get_exercise
