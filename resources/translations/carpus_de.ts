@@ -7093,14 +7093,6 @@ cm</translation>
         <source>Drag the label “{marker}” to its marker</source>
         <translation>Ziehen Sie „{marker}“ auf den richtigen Marker</translation>
     </message>
-    <message>
-        <source>All later angles would be wrong. Swap the two labels?</source>
-        <translation>Alle späteren Winkel wären falsch. Die beiden Bezeichnungen tauschen?</translation>
-    </message>
-    <message>
-        <source>This spot is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
-        <translation>Diese Stelle liegt {size} mm neben der Position, die zu den anderen Markern passt. Vielleicht ist es ein anderer Marker oder keiner.</translation>
-    </message>
 </context>
 <context>
     <name>CourseRunner</name>

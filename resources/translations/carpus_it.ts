@@ -7093,14 +7093,6 @@ cm</translation>
         <source>Drag the label “{marker}” to its marker</source>
         <translation>Trascinare l’etichetta “{marker}” sul suo marcatore</translation>
     </message>
-    <message>
-        <source>All later angles would be wrong. Swap the two labels?</source>
-        <translation>Tutti gli angoli successivi sarebbero errati. Scambiare le due etichette?</translation>
-    </message>
-    <message>
-        <source>This spot is {size} mm from the position that fits the other markers. It may be another marker, or no marker.</source>
-        <translation>Questo punto è a {size} mm dalla posizione compatibile con gli altri marcatori. Può essere un altro marcatore, o nessuno.</translation>
-    </message>
 </context>
 <context>
     <name>CourseRunner</name>
