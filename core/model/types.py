@@ -199,17 +199,3 @@ class TrackedFrame:
             object.__setattr__(self, "doubted", np.zeros(len(self.marker_measured_px), dtype=np.bool_))
         if len(self.is_rejected) != len(self.detections):
             object.__setattr__(self, "is_rejected", np.zeros(len(self.detections), dtype=np.bool_))
-
-
-@dataclass(frozen=True, slots=True)
-class MarkerLabel:
-    """A person's answer: ``marker`` is the blob at ``pixel``.
-
-    ``pixel`` (u, v) is None when it is none of those asked about; the blobs at ``rejected_px`` are not it. All as they
-    lie in frame ``frame_index``.
-    """
-
-    frame_index: int
-    marker: str
-    pixel: tuple[float, float] | None
-    rejected_px: tuple[tuple[float, float], ...] = ()

@@ -20,7 +20,7 @@ import numpy as np
 
 from carpus.core.model.errors import CarpusFault, MarkersNotCorrectable, OutputExists, ReanalysisFailed
 from carpus.core.model.phrase import phrase
-from carpus.core.model.types import BoolArray, Detections, FloatArray, KinematicState, MarkerLabel, TrackedFrame
+from carpus.core.model.types import BoolArray, Detections, FloatArray, KinematicState, TrackedFrame
 from carpus.core.pipeline.stored_settings import settings_from_json
 from carpus.core.pipeline.track import (
     Progress,
@@ -36,10 +36,10 @@ from carpus.core.platform.child_process import ChildProcess, lower_priority
 from carpus.core.session.label_checks import CORRECTED, SAME_BLOB_PX, Correction, correction_to_json
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Event, Session
-from carpus.core.tracking.association.operator_labels import SAME_POSITION_PX, RecentBlobs
+from carpus.core.tracking.association.operator_labels import SAME_POSITION_PX, follow_blob
 from carpus.core.tracking.tracker import Tracker
 
-MAX_STEP_PX, HOLD_TIME_S = 7.0, 0.5
+HOLD_TIME_S = 0.5
 """Largest movement of a marker between two frames; time within which the tracker must confirm a corrected label."""
 
 
@@ -122,11 +122,10 @@ def find_lost_corrections(
             if place is None:
                 held = not np.isfinite(at[0]).all()
             else:
-                spots, held = RecentBlobs(MAX_STEP_PX), False
+                spot_px, held = np.array(place), False
                 for row, measured_px in enumerate(at, begin):
-                    spots.add_frame(row, table.get_frame(row).pixel)
-                    spot_px = spots.locate(begin, np.array(place))
-                    held |= spot_px is not None and bool(np.linalg.norm(measured_px - spot_px) < SAME_POSITION_PX)
+                    spot_px, is_seen = follow_blob(spot_px, table.get_frame(row).pixel)
+                    held |= is_seen and bool(np.linalg.norm(measured_px - spot_px) < SAME_POSITION_PX)
             if not held:
                 lost.append(name)
     return tuple(dict.fromkeys(lost))
@@ -177,12 +176,11 @@ class _Retracker:
             if not session.header.protocol.has_fingers:
                 blobs = blobs.subset(_match_places(blobs, named))
         for name, place in correction.places.items():
-            old = before[markers.index(name)]
-            is_false = np.isfinite(old).all() and not _is_near(named, old)
-            shown = None if name in palm else place  # the palm is reacquired, with its markers
-            if is_false or shown is not None:
-                not_px = ((float(old[0]), float(old[1])),) if is_false else ()
-                self._tracker.add_operator_label(MarkerLabel(correction.row, name, shown, not_px))
+            marker = markers.index(name)
+            if np.isfinite(before[marker]).all() and not _is_near(named, before[marker]):
+                self._tracker.labels.reject(marker, before[marker])
+            if place is not None and name not in palm:  # the palm is reacquired, with its markers
+                self._tracker.labels.add(marker, np.array(place))
         return blobs
 
 

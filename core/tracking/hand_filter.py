@@ -16,7 +16,6 @@ from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import Detections, FloatArray
 from carpus.core.tracking.association.association import is_jointly_compatible
-from carpus.core.tracking.association.operator_labels import LabelledBlob
 from carpus.core.tracking.association.palm_association import (
     Measurements,
     UpdatedPalm,
@@ -354,9 +353,9 @@ class HandFilter:
         estimate = self.estimate_from_found(found)
         return predicted.with_estimate(estimate, self._resting_mixture(estimate))
 
-    def restart_labelled_digit(self, label: LabelledBlob) -> None:
+    def restart_labelled_digit(self, marker: int) -> None:
         """Restart the digit of which a person has labelled a disc."""
-        digits = np.flatnonzero(self.order.has_discs)[(self.order.digits == label.marker).any(axis=1)]
+        digits = np.flatnonzero(self.order.has_discs)[(self.order.digits == marker).any(axis=1)]
         if self.fingers is not None and digits.size:
             self.fingers.restart_digit(int(digits[0]))
 

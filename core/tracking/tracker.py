@@ -22,7 +22,6 @@ from carpus.core.model.types import (
     FloatArray,
     KinematicState,
     LossReason,
-    MarkerLabel,
     TrackedFrame,
     TrackStatus,
 )
@@ -174,7 +173,7 @@ class Tracker:
         self.markers = protocol.markers
         self._filter = HandFilter(calibration, camera, settings)
         self._manager = TrackManager(MIN_FOUND_MARKERS, settings.lost_after_s, has_digits=protocol.has_fingers)
-        self._labels = OperatorLabels(self.markers)
+        self.labels = OperatorLabels(len(self.markers))
         model = None if self._filter.fingers is None else self._filter.fingers.model
         self._frame_builder = TrackedFrameBuilder(protocol, self._filter.order, model, self._filter.readout)
         palm = palm_calibration(calibration)
@@ -203,10 +202,6 @@ class Tracker:
     def is_lost(self) -> bool:
         return self._manager.is_lost
 
-    def add_operator_label(self, label: MarkerLabel) -> None:
-        """Add a person's label of this or an earlier frame, from the next frame on."""
-        self._labels.add(label)
-
     def predict_measurement(self, timestamp_s: float) -> PredictedMeasurement | None:
         """Return the predicted measurement at that time; None when the hand is lost."""
         if self.is_lost or self._manager.is_timed_out(timestamp_s):
@@ -223,16 +218,16 @@ class Tracker:
 
     def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Associate the blobs of one frame and update by them; return the frame's result."""
-        labelled = self._labels.apply_labels(index, timestamp_s, detections, lambda: self._predict_pixels(timestamp_s))
+        labelled = self.labels.apply_labels(timestamp_s, detections, lambda: self._predict_pixels(timestamp_s))
         frame = self._track(index, timestamp_s, labelled, dropped_before)
-        self._labels.follow(frame.marker_measured_px)
+        self.labels.follow(frame.marker_measured_px)
         if labelled.detections is not detections:
             frame = replace(frame, detections=detections, is_rejected=labelled.is_rejected)
         return frame
 
     def _track(self, index: int, timestamp_s: float, labelled: LabelledDetections, dropped_before: int) -> TrackedFrame:
         """Return the frame's result of the blobs that may be markers."""
-        detections, label = labelled.detections, labelled.labelled
+        detections = labelled.detections
         ideal = undistort_detections(detections, self._filter.view.camera)
         is_linked = self._manager.start_frame(timestamp_s)
         if self._manager.is_timed_out(timestamp_s):
@@ -245,8 +240,8 @@ class Tracker:
             self._filter.start(self._filter.estimate_from_found(found))
 
         dt_s = self._manager.time_step_s(timestamp_s)
-        if label is not None:
-            self._filter.restart_labelled_digit(label)
+        if labelled.marker is not None:
+            self._filter.restart_labelled_digit(labelled.marker)
             self._frame_builder.reset_consistency()
         predicted = self._filter.predict(dt_s)
         scan = self._filter.build_scan(predicted, ideal, timestamp_s, dt_s)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.model.types import Detections, MarkerLabel, TrackedFrame
+from carpus.core.model.types import Detections, TrackedFrame
 from carpus.core.tracking.association.consistency import ConsistencyTest, find_unused_markers
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -51,7 +51,7 @@ def test_rejected_blob_is_left_out_and_stored() -> None:
     frames: list[TrackedFrame] = []
     for k in range(60):
         if k == said_at:
-            tracker.add_operator_label(MarkerLabel(k - 1, "MCP3", None, ((float(still_px[0]), float(still_px[1])),)))
+            tracker.labels.reject(tracker.markers.index("MCP3"), still_px)
         seen = blobs(motion(k * DT_S), rng, false_px=[] if 30 <= k < 40 else [still_px.tolist()])
         frames.append(tracker.step(k, k * DT_S, seen))
     left_out = np.array([int(frame.is_rejected.sum()) for frame in frames])
