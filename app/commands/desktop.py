@@ -84,7 +84,8 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
 
         gc.unfreeze()
         for widget in qt.topLevelWidgets():
-            widget.deleteLater()
+            if widget is not splash:  # closed by the next desktop too
+                widget.deleteLater()
         qt.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
         gc.collect()
 
