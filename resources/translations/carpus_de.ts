@@ -8283,7 +8283,7 @@ von oben</translation>
     </message>
     <message>
         <source>At least {score}: proposed from the recording of {day}</source>
-        <translation>Mindestens {score}: Vorschlag, Aufnahme vom {day}</translation>
+        <translation>Mindestens {score}: Vorschlag, Aufnahme {day}</translation>
     </message>
 </context>
 <context>
