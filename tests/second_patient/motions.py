@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -14,8 +13,6 @@ from tests.second_patient.skeleton import Posture
 STILL_S = 0.9
 """The hand lies still so long for the clicks."""
 SECONDS = 5.6
-GRASPS = Path(__file__).parents[3] / "shared" / "data" / "motion" / "kinesis_reach_to_grasp.npz"
-"""Real reach-to-grasp movements, where a developer has them; a grasp of our own stands in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +138,7 @@ def make_motion(name: str, seed: int) -> Motion:
         cup = interpolate_rests(at(0.0, 1.0, 1.5, 2.5, 3.4, 4.4), [0.0, 0.3, 0.3, 0.0, 0.3, 0.0])
         wrist[1] = interpolate_rests(at(0.3, 1.6, 3.6), [0.0, vary(-3, 3), 0.0])
     elif name == "grasp":
-        wide = _grasp(rng, start, pace)
+        wide = interpolate_rests(at(0.0, 1.0, 1.7, 2.9, 3.6, 4.4), [0.4, 1.0, 0.1, 0.1, 0.9, 0.4])
         mcp, pip = (lambda t: 14.0 + 38.0 * (1.0 - wide(t)) - 52.0 * _flat(t, start)), (
             lambda t: 18.0 + 40.0 * (1.0 - wide(t)) - 58.0 * _flat(t, start))  # fmt: skip
         cup = lambda t: 0.7 * (1.0 - wide(t)) * (1.0 - _flat(t, start))  # noqa: E731
@@ -195,30 +192,3 @@ _LAID_DEG = -6.0
 def _flat(t: FloatArray, start: float) -> FloatArray:
     """1 while the hand lies flat for the clicks and at the end, 0 while it grasps."""
     return np.asarray(1.0 - ease((t - start) / 0.8) + ease((t - start - 4.0) / 0.7))
-
-
-def _grasp(rng: np.random.Generator, start: float, pace: float) -> Curve:
-    """How wide the hand is open, 0 to 1: index to thumb of a real person's grasp where there is one, else our own."""
-    if not GRASPS.exists():
-        return interpolate_rests(
-            [start + pace * s for s in (0.0, 1.0, 1.7, 2.9, 3.6, 4.4)], [0.4, 1.0, 0.1, 0.1, 0.9, 0.4]
-        )
-    with np.load(GRASPS) as data:
-        trial = int(rng.integers(len(data["start"]) - 1))
-        rows = slice(int(data["start"][trial]), int(data["start"][trial + 1]))
-        time_s = np.asarray(data["time"][rows], dtype=np.float64)
-        tips = np.asarray(data["markers"][rows], dtype=np.float64)
-    apart = np.linalg.norm(tips[:, 0] - tips[:, 1], axis=1)
-    known = np.isfinite(apart)
-    time_s, apart = time_s[known] - time_s[known][0], apart[known]
-    low, high = np.percentile(apart, [2.0, 98.0])
-    # Slow enough for a patient: the real trial is stretched over the recording, its own shape kept.
-    share = np.clip((apart - low) / max(high - low, 1e-3), 0.0, 1.0)
-    grid = np.linspace(0.0, 4.6, 140)
-    wide = np.interp(grid / 4.6 * time_s[-1], time_s, share)
-    kernel = np.hanning(13)
-    wide = np.convolve(np.pad(wide, 6, mode="edge"), kernel / kernel.sum(), mode="valid")
-    from scipy.interpolate import CubicSpline
-
-    spline = CubicSpline(grid, wide, bc_type="clamped")
-    return lambda t: np.asarray(np.clip(spline(np.clip(t - start, 0.0, 4.6)), 0.0, 1.0))

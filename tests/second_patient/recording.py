@@ -132,8 +132,7 @@ def _moment(posture: object, i: int) -> object:
 def cache_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:
     """Folder and truth of a recording, rendered only when the user's cache does not hold it as it would be now."""
     take = make_take(row, seed, seconds=seconds)
-    # What is true names it too: a grasp is a real person's where that lies beside the checkout, another elsewhere.
-    drawn = _SOURCE + repr((row, seed, seconds)).encode() + take.truth.disc_position_cam_m.tobytes()
+    drawn = _SOURCE + repr((row, seed, seconds)).encode()
     key = hashlib.sha256(drawn).hexdigest()[:20]
     root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "second_patient"
     folder = root / key
