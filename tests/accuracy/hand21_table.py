@@ -75,7 +75,7 @@ def hand_job_done(job: HandJob) -> HandRun:
 
 
 def hand_jobs(rows: Sequence[HandScenario], seeds: int, pictures: int, first_seed: int = REPORT_SEEDS) -> list[HandJob]:
-    """As :func:`tests.accuracy.jobs.jobs_for`: pictures where a row wants them, else simulated measurements."""
+    """As :func:`tests.accuracy.jobs.make_jobs`: pictures where a row wants them, else simulated measurements."""
     out = [HandJob(row, i, "pictures", first_seed) for row in rows if row.pictures for i in range(pictures)]
     by_blobs = [row for row in rows if not (row.pictures and pictures)]
     return out + [

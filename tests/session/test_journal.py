@@ -121,9 +121,9 @@ import resource, sys
 from pathlib import Path
 from carpus.core.model.errors import DiskFull
 from carpus.core.model.hand.protocols import HAND21
-from tests.session.samples import journal_of, make_frame
+from tests.session.samples import write_journal, make_frame
 resource.setrlimit(resource.RLIMIT_FSIZE, (3_000_000, 3_000_000))
-journal = journal_of(Path(sys.argv[1]), protocol=HAND21)
+journal = write_journal(Path(sys.argv[1]), protocol=HAND21)
 row = synced = 0
 try:
     while row < 5000:

@@ -121,10 +121,10 @@ import resource, sys
 from pathlib import Path
 from carpus.core.model.errors import DiskFull
 from carpus.core.model.hand.protocols import HAND21
-from tests.session.samples import begun, make_frame, make_header
+from tests.session.samples import begin_session, make_frame, make_header
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
 try:
-    with begun(Path(sys.argv[1]), make_header(HAND21)) as session:
+    with begin_session(Path(sys.argv[1]), make_header(HAND21)) as session:
         for row in range(3000):
             session.append(make_frame(row, HAND21))
 except DiskFull:

@@ -26,9 +26,9 @@ import itertools, sys
 from pathlib import Path
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.records import erasure, session_records
-from tests.records.samples import opened
+from tests.records.samples import open_store
 kind, folder, session_id, url = sys.argv[1:]
-with opened(Path(folder), url) as house:
+with open_store(Path(folder), url) as house:
     print("begun", flush=True)
     if kind == "erasure":
         erasure.erase(house.store, erasure.plan_patient(house.store, house.index.owner(session_id)), house.log)
