@@ -6307,71 +6307,71 @@ cm</translation>
     </message>
     <message>
         <source>There. Hold still.</source>
-        <translation>Geschafft. Halten.</translation>
+        <translation>Geschafft. Stillhalten.</translation>
     </message>
     <message>
         <source>TAM is missing for fingers whose joints were never all visible at once.</source>
-        <translation>Sie fehlt bei Fingern, deren Gelenke nie alle zugleich sichtbar waren.</translation>
+        <translation>Die TAM fehlt bei Fingern, deren Gelenke nie alle zugleich sichtbar waren.</translation>
     </message>
     <message>
         <source>Hand at the edge of the table. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
-        <translation>Hand auf ihrem Platz an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
+        <translation>Hand an der Tischkante. Becher mit 5 bis 7 cm Durchmesser in 20 bis 30 cm Abstand.</translation>
     </message>
     <message>
         <source>Choose a patient in the list, then start here. The practice patient is simulated.</source>
-        <translation>Wählen Sie den Patienten in der Liste und beginnen Sie hier. Der Testpatient ist simuliert.</translation>
+        <translation>Wählen Sie einen Patienten in der Liste, und beginnen Sie dann hier. Der Testpatient ist simuliert.</translation>
     </message>
     <message>
         <source>Every marker has its label and all checks are good. Start measuring here.</source>
-        <translation>Jeder Marker hat seine Bezeichnung, und alle Prüfungen sind gut: hier beginnen.</translation>
+        <translation>Jeder Marker hat seine Bezeichnung, und alle Prüfungen sind gut. Starten Sie die Messung hier.</translation>
     </message>
     <message>
         <source>You have finished a whole session. The arrow at the top left leads back to the patients.</source>
-        <translation>Das war eine ganze Sitzung. Der Pfeil oben links führt zurück zu den Patienten.</translation>
+        <translation>Sie haben eine ganze Sitzung abgeschlossen. Der Pfeil oben links führt zurück zu den Patienten.</translation>
     </message>
     <message>
         <source>The camera needs a USB 2 port: some USB 3 ports refuse cameras with old firmware.</source>
-        <translation>Sie braucht einen USB-2-Anschluss; manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
+        <translation>Die Kamera braucht einen USB-2-Anschluss: Manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Carpus uses the time at which each frame arrives, so speeds are approximate.</source>
-        <translation>Diese Kamera sendet keine Zeitstempel. Es gilt die Ankunftszeit der Bilder, daher sind Geschwindigkeiten nur Näherungen.</translation>
+        <translation>Diese Kamera sendet keine Zeitstempel. Carpus verwendet die Ankunftszeit der Bilder, daher sind Geschwindigkeiten nur Näherungen.</translation>
     </message>
     <message>
         <source>unknown file format {value}</source>
-        <translation>{value} kann nicht gelesen werden</translation>
+        <translation>unbekanntes Dateiformat {value}</translation>
     </message>
     <message>
         <source>{movement}: the session has no range in this direction, and the list of readings has no time</source>
-        <translation>{movement}: Die Sitzung hat in dieser Richtung kein Bewegungsausmaß, und die Liste nennt keine Zeit</translation>
+        <translation>{movement}: Die Sitzung hat in dieser Richtung kein Bewegungsausmaß, und die Liste der Ablesungen nennt keine Zeit</translation>
     </message>
     <message>
         <source>The backup contains every session.</source>
-        <translation>Sie enthält alle Sitzungen.</translation>
+        <translation>Die Sicherung enthält alle Sitzungen.</translation>
     </message>
     <message>
         <source>1 session file is missing from the backup.</source>
-        <translation>1 Sitzungsdatei fehlt darin.</translation>
+        <translation>In der Sicherung fehlt 1 Sitzungsdatei.</translation>
     </message>
     <message>
         <source>{n} session files are missing from the backup.</source>
-        <translation>{n} Sitzungsdateien fehlen darin.</translation>
+        <translation>In der Sicherung fehlen {n} Sitzungsdateien.</translation>
     </message>
     <message>
         <source>The backup is on the same disk as the data. If that disk fails, both are lost.</source>
-        <translation>Sie liegt auf demselben Datenträger wie die Daten. Fällt er aus, ist beides verloren.</translation>
+        <translation>Die Sicherung liegt auf demselben Datenträger wie die Daten. Fällt er aus, ist beides verloren.</translation>
     </message>
     <message>
         <source>You may feel a stretch, but no pain. If your hand still hurts an hour later, do less next time and call us.</source>
-        <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, machen Sie das nächste Mal weniger und rufen Sie uns an.</translation>
+        <translation>Es darf ziehen, aber nicht wehtun. Tut die Hand nach einer Stunde noch weh, machen Sie das nächste Mal weniger und rufen Sie uns an.</translation>
     </message>
     <message>
         <source>the saved data differ from the recorded data</source>
-        <translation>die zurückgelesenen Daten weichen von den geschriebenen ab</translation>
+        <translation>die gespeicherten Daten weichen von den aufgenommenen ab</translation>
     </message>
     <message>
         <source>“carpus track --leave-out-damaged” continues without the damaged frames.</source>
-        <translation>„carpus track --leave-out-damaged“ arbeitet ohne dieses Bild weiter.</translation>
+        <translation>„carpus track --leave-out-damaged“ arbeitet ohne die beschädigten Bilder weiter.</translation>
     </message>
     <message>
         <source>Carpus changed nothing there.</source>
@@ -6379,7 +6379,7 @@ cm</translation>
     </message>
     <message>
         <source>Reinstall OpenNI2.</source>
-        <translation>Installieren Sie es neu.</translation>
+        <translation>Installieren Sie OpenNI2 neu.</translation>
     </message>
 </context>
 <context>
@@ -7211,11 +7211,11 @@ cm</translation>
     </message>
     <message>
         <source>Deleted data cannot be restored.</source>
-        <translation>Eine Wiederherstellung ist nicht möglich.</translation>
+        <translation>Gelöschte Daten lassen sich nicht wiederherstellen.</translation>
     </message>
     <message>
         <source>Deleted data cannot be restored, not even from a backup.</source>
-        <translation>Eine Wiederherstellung ist nicht möglich, auch nicht aus einer Sicherung.</translation>
+        <translation>Gelöschte Daten lassen sich nicht wiederherstellen, auch nicht aus einer Sicherung.</translation>
     </message>
 </context>
 <context>
@@ -8279,11 +8279,11 @@ von oben</translation>
     </message>
     <message>
         <source>The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only.</source>
-        <translation>Sie werden weder gemittelt noch voneinander abgezogen. Veränderung wird nur innerhalb einer Methode beurteilt.</translation>
+        <translation>Die beiden Arten von Werten werden weder gemittelt noch voneinander abgezogen. Eine Änderung wird nur innerhalb einer Methode beurteilt.</translation>
     </message>
     <message>
         <source>At least {score}: proposed from the recording of {day}</source>
-        <translation>Mindestens {score}: Vorschlag, Aufnahme {day}</translation>
+        <translation>Mindestens {score}: Vorschlag aus der Aufnahme vom {day}</translation>
     </message>
 </context>
 <context>
@@ -9128,7 +9128,7 @@ von oben</translation>
     <name>PlotMenu</name>
     <message>
         <source>Show all</source>
-        <translation>Alles zeigen</translation>
+        <translation>Alles anzeigen</translation>
     </message>
     <message>
         <source>Zoom in</source>
@@ -9961,7 +9961,7 @@ von oben</translation>
     </message>
     <message>
         <source>The result was saved again as the newest one.</source>
-        <translation>Es wurde noch einmal als neuestes Ergebnis gespeichert.</translation>
+        <translation>Das Ergebnis wurde noch einmal als neuestes gespeichert.</translation>
     </message>
 </context>
 <context>
@@ -10198,11 +10198,11 @@ von oben</translation>
     </message>
     <message>
         <source>Enter a name for the set.</source>
-        <translation>Die Folge braucht einen Namen.</translation>
+        <translation>Geben Sie einen Namen für die Folge ein.</translation>
     </message>
     <message>
         <source>Add an exercise to the set.</source>
-        <translation>Die Folge braucht eine Übung.</translation>
+        <translation>Fügen Sie der Folge eine Übung hinzu.</translation>
     </message>
 </context>
 <context>

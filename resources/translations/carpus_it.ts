@@ -6303,7 +6303,7 @@ cm</translation>
     </message>
     <message>
         <source>fingertip to palm {distance}</source>
-        <translation>distanza polpastrello-palmo {distance}</translation>
+        <translation>distanza polpa-palmo {distance}</translation>
     </message>
     <message>
         <source>There. Hold still.</source>
@@ -6311,75 +6311,75 @@ cm</translation>
     </message>
     <message>
         <source>TAM is missing for fingers whose joints were never all visible at once.</source>
-        <translation>Manca per le dita le cui articolazioni non erano mai tutte visibili contemporaneamente.</translation>
+        <translation>Il TAM manca per le dita le cui articolazioni non erano mai tutte visibili contemporaneamente.</translation>
     </message>
     <message>
         <source>Hand at the edge of the table. Cup 5 to 7 cm wide, 20 to 30 cm away.</source>
-        <translation>Mano al suo posto sul bordo del tavolo. Bicchiere largo 5–7 cm, a 20–30 cm.</translation>
+        <translation>Mano sul bordo del tavolo. Bicchiere largo 5–7 cm, a 20–30 cm.</translation>
     </message>
     <message>
         <source>Choose a patient in the list, then start here. The practice patient is simulated.</source>
-        <translation>Scegliere il paziente nell’elenco e iniziare qui. Il paziente di prova è simulato.</translation>
+        <translation>Scegliere un paziente nell’elenco, poi iniziare qui. Il paziente di prova è simulato.</translation>
     </message>
     <message>
         <source>Every marker has its label and all checks are good. Start measuring here.</source>
-        <translation>Ogni marcatore ha la sua etichetta e ogni controllo è buono: iniziare qui.</translation>
+        <translation>Ogni marcatore ha la sua etichetta e tutti i controlli sono buoni. Iniziare qui la misurazione.</translation>
     </message>
     <message>
         <source>You have finished a whole session. The arrow at the top left leads back to the patients.</source>
-        <translation>Questa era una seduta intera. La freccia in alto a sinistra riporta ai pazienti.</translation>
+        <translation>La seduta è completa. La freccia in alto a sinistra riporta ai pazienti.</translation>
     </message>
     <message>
         <source>The camera needs a USB 2 port: some USB 3 ports refuse cameras with old firmware.</source>
-        <translation>Richiede una porta USB 2; alcune porte USB 3 rifiutano telecamere con firmware vecchio.</translation>
+        <translation>La telecamera richiede una porta USB 2: alcune porte USB 3 rifiutano telecamere con firmware vecchio.</translation>
     </message>
     <message>
         <source>This camera sends no time stamps. Carpus uses the time at which each frame arrives, so speeds are approximate.</source>
-        <translation>Questa telecamera non invia l’ora di ripresa dei fotogrammi. Vale l’ora di arrivo, quindi le velocità sono approssimative.</translation>
+        <translation>Questa telecamera non invia l’ora di ripresa dei fotogrammi. Carpus usa l’ora di arrivo, quindi le velocità sono approssimative.</translation>
     </message>
     <message>
         <source>unknown file format {value}</source>
-        <translation>{value} non si può leggere</translation>
+        <translation>formato di file sconosciuto {value}</translation>
     </message>
     <message>
         <source>{movement}: the session has no range in this direction, and the list of readings has no time</source>
-        <translation>{movement}: la seduta non ha escursione in questa direzione, e l’elenco non indica il tempo</translation>
+        <translation>{movement}: la seduta non ha escursione in questa direzione, e l’elenco delle letture non indica il tempo</translation>
     </message>
     <message>
         <source>The backup contains every session.</source>
-        <translation>Contiene tutte le sedute.</translation>
+        <translation>La copia di sicurezza contiene tutte le sedute.</translation>
     </message>
     <message>
         <source>1 session file is missing from the backup.</source>
-        <translation>Manca 1 file di seduta.</translation>
+        <translation>Nella copia di sicurezza manca 1 file di seduta.</translation>
     </message>
     <message>
         <source>{n} session files are missing from the backup.</source>
-        <translation>Mancano {n} file di sedute.</translation>
+        <translation>Nella copia di sicurezza mancano {n} file di sedute.</translation>
     </message>
     <message>
         <source>The backup is on the same disk as the data. If that disk fails, both are lost.</source>
-        <translation>È sullo stesso disco dei dati. Se il disco si guasta, si perdono entrambi.</translation>
+        <translation>La copia di sicurezza è sullo stesso disco dei dati. Se il disco si guasta, si perdono entrambi.</translation>
     </message>
     <message>
         <source>You may feel a stretch, but no pain. If your hand still hurts an hour later, do less next time and call us.</source>
-        <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta faccia meno e ci chiami.</translation>
+        <translation>Può tirare, ma non deve far male. Se dopo un’ora la mano fa ancora male, la prossima volta faccia meno e ci chiami.</translation>
     </message>
     <message>
         <source>the saved data differ from the recorded data</source>
-        <translation>i dati riletti sono diversi da quelli scritti</translation>
+        <translation>i dati salvati sono diversi da quelli registrati</translation>
     </message>
     <message>
         <source>“carpus track --leave-out-damaged” continues without the damaged frames.</source>
-        <translation>“carpus track --leave-out-damaged” prosegue senza quel fotogramma.</translation>
+        <translation>“carpus track --leave-out-damaged” prosegue senza i fotogrammi danneggiati.</translation>
     </message>
     <message>
         <source>Carpus changed nothing there.</source>
-        <translation>Carpus non vi ha cambiato nulla.</translation>
+        <translation>Carpus non vi ha modificato nulla.</translation>
     </message>
     <message>
         <source>Reinstall OpenNI2.</source>
-        <translation>Reinstallarlo.</translation>
+        <translation>Reinstallare OpenNI2.</translation>
     </message>
 </context>
 <context>
@@ -7211,11 +7211,11 @@ cm</translation>
     </message>
     <message>
         <source>Deleted data cannot be restored.</source>
-        <translation>Non si può ripristinare.</translation>
+        <translation>I dati eliminati non si possono ripristinare.</translation>
     </message>
     <message>
         <source>Deleted data cannot be restored, not even from a backup.</source>
-        <translation>Non si può ripristinare, nemmeno da una copia di sicurezza.</translation>
+        <translation>I dati eliminati non si possono ripristinare, nemmeno da una copia di sicurezza.</translation>
     </message>
 </context>
 <context>
@@ -8279,11 +8279,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>The two kinds of values are neither averaged nor subtracted. Change is assessed within one method only.</source>
-        <translation>Non se ne calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
+        <translation>Dei due tipi di valori non si calcola né la media né la differenza. Il cambiamento si valuta solo all’interno dello stesso metodo.</translation>
     </message>
     <message>
         <source>At least {score}: proposed from the recording of {day}</source>
-        <translation>Almeno {score}: proposta, registrazione del {day}</translation>
+        <translation>Almeno {score}: proposta dalla registrazione in data {day}</translation>
     </message>
 </context>
 <context>
@@ -9961,7 +9961,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>The result was saved again as the newest one.</source>
-        <translation>È stato salvato di nuovo come risultato più recente.</translation>
+        <translation>Il risultato è stato salvato di nuovo come il più recente.</translation>
     </message>
 </context>
 <context>
@@ -10198,11 +10198,11 @@ dall’alto</translation>
     </message>
     <message>
         <source>Enter a name for the set.</source>
-        <translation>La sequenza ha bisogno di un nome.</translation>
+        <translation>Inserire un nome per la sequenza.</translation>
     </message>
     <message>
         <source>Add an exercise to the set.</source>
-        <translation>La sequenza ha bisogno di un esercizio.</translation>
+        <translation>Aggiungere un esercizio alla sequenza.</translation>
     </message>
 </context>
 <context>
