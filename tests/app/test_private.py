@@ -163,7 +163,7 @@ def test_list_of_frames_stays_in_its_folder(tmp_path: Path, name: str) -> None:
     from carpus.core.capture.files.tum import TumFolder
 
     (tmp_path / "rgb.txt").write_text(f"1.0 {name}\n")
-    with pytest.raises(RecordingUnreadable, match="leads out of the folder"):
+    with pytest.raises(RecordingUnreadable, match="outside the folder"):
         TumFolder(tmp_path, requires_depth=False)
 
 
