@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.model.phrase import phrase
 from carpus.core.results.measure import Measure, summarise_values
 from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.norms import (
@@ -19,8 +20,14 @@ from carpus.core.results.norms import (
     grip_norm_kg,
     wrist_norm,
 )
-from carpus.core.results.session_results import SessionResults
-from carpus.core.results.task_measures import _thumb_distance_sd_m, find_session_reaches
+from carpus.core.results.session_results import SessionResults, compute_session_results
+from carpus.core.results.task_measures import (
+    QUANTITIES,
+    MeasureInput,
+    Quantity,
+    _thumb_distance_sd_m,
+    find_session_reaches,
+)
 from carpus.ui.kit.cells import cell_text
 from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import method_words
@@ -257,3 +264,26 @@ def test_range_table_gives_the_share_of_the_other_hand() -> None:
     assert shares(half, made) == {"50\N{NO-BREAK SPACE}%)"}
     assert {one[:1] for one in shares(hidden, half)} == {"≥"}
     assert shares(half, hidden) == {""}, "of a range that was not seen whole"
+
+
+def test_further_measure_is_one_row_of_the_table(monkeypatch: pytest.MonkeyPatch) -> None:
+    def measure_arcs(data: MeasureInput) -> list[Measure]:
+        assert data.trained is not None
+        arcs = [math.degrees(one.row.arc_rad) for one in data.counted_repetitions]
+        return [summarise_values("task", data.trained.name, "further", "N", arcs)]
+
+    monkeypatch.setitem(
+        QUANTITIES,
+        "further",
+        Quantity(phrase("Further measure"), "N", 1, measure_arcs, ("WRIST_FE",), positive="stronger"),
+    )
+    figures = compute_session_results(session())
+    (row,) = [row for row in build_measure_rows(figures, "s") if row.measure == "further"]
+    assert (row.of, row.unit, row.count, row.positive) == ("flexion", "N", figures.repetition_count, "stronger")
+    assert row.mean == pytest.approx(next(one.mean for one in figures.wrist_ranges if one.quantity == "arc"), abs=1.0)
+    cells = [cell_text(cell) for line in task_table(figures).rows for cell in line]
+    at = cells.index("Further measure")
+    assert cells[at + 1].startswith(f"{row.mean:.1f}")
+    assert cells[at + 1].endswith("N")
+    other = compute_session_results(session(exercise="WRIST_RU", motion="deviation"))
+    assert all(one.quantity != "further" for one in other.measures)
