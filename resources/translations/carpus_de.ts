@@ -5684,8 +5684,8 @@
         <translation>Gespeichert für die Kamera mit der Seriennummer {serial}. Die Werte früherer Sitzungen ändern sich nicht.</translation>
     </message>
     <message>
-        <source>Positions: {count} of {all} fields covered (at least {least} needed)</source>
-        <translation>Positionen: {count} von {all} Feldern (mindestens {least})</translation>
+        <source>Positions: {count} of {all} fields ({least} needed)</source>
+        <translation>Positionen: {count} von {all} Feldern ({least} nötig)</translation>
     </message>
     <message>
         <source>Show the board in other positions and at other tilts</source>

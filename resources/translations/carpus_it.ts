@@ -5684,8 +5684,8 @@
         <translation>Salvata per la telecamera con numero di serie {serial}. I valori delle sedute precedenti non cambiano.</translation>
     </message>
     <message>
-        <source>Positions: {count} of {all} fields covered (at least {least} needed)</source>
-        <translation>Posizioni: {count} riquadri su {all} (almeno {least})</translation>
+        <source>Positions: {count} of {all} fields ({least} needed)</source>
+        <translation>Posizioni: {count} riquadri su {all} (ne servono {least})</translation>
     </message>
     <message>
         <source>Show the board in other positions and at other tilts</source>

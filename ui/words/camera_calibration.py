@@ -46,7 +46,7 @@ def view_fault_words(lack: RejectReason) -> str:
 def progress_rows(judgement: ViewCoverage) -> list[tuple[State, str]]:
     """Return state and text of places, tilts and distances."""
     missing = [side for side in TILT_SIDES if side not in judgement.sides]
-    places = tr("Positions: {count} of {all} fields covered (at least {least} needed)").format(
+    places = tr("Positions: {count} of {all} fields ({least} needed)").format(
         count=judgement.field_count, all=FIELDS[0] * FIELDS[1], least=MIN_FIELDS
     )
     tilts = (
