@@ -290,7 +290,7 @@ _PREFERENCE_FIELDS = {
     "backup": ("folder", "hour"),
     "records": ("retention_years",),
     "lock": ("after_min",),
-    "practice_system": ("requests", "results"),
+    "practice_system": ("requests", "results", "fhir"),
     "stream": ("on",),
     "patient": ("sound",),
     "first_start": ("answered",),

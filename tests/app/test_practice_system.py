@@ -6,6 +6,7 @@ import base64
 import json
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -13,9 +14,10 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
-from carpus.app.settings import PracticeSystemSettings, ScreenSettings, Settings
+from carpus.app.settings import PREFERENCES_FILE, PracticeSystemSettings, ScreenSettings, Settings, settings_folder
 from carpus.core.formats.gdt import parse_fields
 from carpus.core.records.values import Patient
+from carpus.ui.screens.settings.practice_system_card import PracticeSystemCard
 from tests.app.test_library import set_up, store
 from tests.formats.test_gdt import MUSTERMANN, encode
 
@@ -170,3 +172,14 @@ def test_report_sent_writes_pdf_and_values(
     assert base64.b64decode(pdf["data"]) == Path(fields["6305"]).read_bytes()
     assert not controller.messages.is_busy
     assert controller.context.recent_locations.folder("reports") != str(out), "what is saved next is not sent"
+
+
+def test_fhir_chosen_in_settings_is_saved(opened: Open, folders: PracticeSystemSettings) -> None:
+    desktop = opened()
+    desktop.controller.navigator.open_screen("settings")
+    (card,) = desktop.preferences.screen.findChildren(PracticeSystemCard)
+    card.fhir_check.click()
+    assert desktop.preferences.settings.practice_system == replace(folders, fhir=False)
+    card.fhir_check.click()
+    saved = (desktop.preferences._folder or settings_folder()) / PREFERENCES_FILE
+    assert "fhir = true" in saved.read_text("utf-8")
