@@ -96,7 +96,7 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
     events += [
         (row.start_s, row.end_s - row.start_s, "repetition", str(n), row.peak_s, math.degrees(row.arc_rad),
          "yes" if row.counted else f"no: {row.reason.replace('_', ' ')}")
-        for n, row in enumerate((one.row for one in take.results.repetitions), 1) if row is not None
+        for n, row in enumerate((one.row for one in take.results.repetitions), 1)
     ]  # fmt: skip
     lines = (
         [_event_cell(value) for value in event] for event in sorted(events, key=lambda e: (math.isnan(e[0]), e[0]))

@@ -229,7 +229,7 @@ def _joint_columns(estimate: str, motion: Motion) -> Table:
 
 def build_repetition_table(session: Session, figures: SessionResults) -> Table:
     """Build the table of repetitions with a person's choices: degrees and seconds."""
-    rows = [one.row for one in figures.repetitions if one.row is not None]
+    rows = [one.row for one in figures.repetitions]
     angle = trained_angle_name(session)
     turned = {name: f"{name.removesuffix('_rad')}_deg" for name in ("angle_rad", "arc_rad", "arc_sd_rad")}
     turned |= {f"peak_speed{part}_rad_s": f"peak_speed{part}_deg_s" for part in ("", "_sd")}

@@ -158,12 +158,11 @@ def repetition_events(item: ExportItem) -> list[Event]:
         return []
     start_s, out = float(item.session.timestamp_s[0]), []
     for number, one in enumerate(item.results.repetitions, 1):
-        if one.row is not None:
-            text = f"{number}" if one.row.counted else f"{number}, not counted: {one.row.reason.replace('_', ' ')}"
-            row = with_time_offset(one.row, start_s)
-            for kind, time_s in (("start", row.start_s), ("peak", row.peak_s), ("end", row.end_s)):
-                if math.isfinite(time_s):
-                    out.append(Event(time_s, f"repetition_{kind}", text))
+        text = f"{number}" if one.row.counted else f"{number}, not counted: {one.row.reason.replace('_', ' ')}"
+        row = with_time_offset(one.row, start_s)
+        for kind, time_s in (("start", row.start_s), ("peak", row.peak_s), ("end", row.end_s)):
+            if math.isfinite(time_s):
+                out.append(Event(time_s, f"repetition_{kind}", text))
     return out
 
 

@@ -86,32 +86,21 @@ class TrainedAngle:
 
 
 @dataclass(frozen=True, slots=True)
-class MeasuredRepetition:
-    """One repetition: ``window`` of its range with holds, its strokes, and its row.
-
-    ``unmeasured_reason``: why it cannot count; ``exclusion_reason``: why a person excluded it.
-    """
-
-    window: Repetition
-    unmeasured_reason: UnmeasuredReason
-    strokes: tuple[StrokeMeasures, ...]
-    row: RepetitionRow
-    exclusion_reason: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class RepetitionResult:
-    """Repetition as shown, in seconds after the first frame.
+    """One repetition, in seconds after the first frame.
 
-    It lasts from leaving the first turning point to reaching the last. ``exclusion_reason`` is empty if it is included;
-    ``unmeasured_reason``: too little was seen, or it was cut.
+    It lasts from leaving the first turning point to reaching the last; ``window`` is that of its range, with holds.
+    ``unmeasured_reason``: too little was seen, or it was cut; ``exclusion_reason``: why a person excluded it, empty if
+    it is included.
     """
 
     start_s: float
     end_s: float
-    exclusion_reason: str
+    window: Repetition
+    row: RepetitionRow
     unmeasured_reason: UnmeasuredReason = ""
-    row: RepetitionRow | None = None
+    exclusion_reason: str = ""
+    strokes: tuple[StrokeMeasures, ...] = ()
 
     @property
     def is_passive(self) -> bool:
@@ -139,20 +128,6 @@ def compute_repetitions(session: Session) -> Repetitions:
     start_s = float(session.timestamp_s[0])
     rows = (one.row for one in measure_repetitions(trained, RepetitionChoices()))
     return Repetitions(trained.name, tuple(with_time_offset(row, start_s) for row in rows))
-
-
-def to_repetition_results(measured: Sequence[MeasuredRepetition]) -> tuple[RepetitionResult, ...]:
-    """Return the repetitions as review and report show them."""
-    return tuple(
-        RepetitionResult(
-            one.row.start_s if math.isfinite(one.row.start_s) else one.window.start_s,
-            one.row.end_s if math.isfinite(one.row.end_s) else one.window.end_s,
-            one.exclusion_reason,
-            one.unmeasured_reason,
-            one.row,
-        )
-        for one in measured
-    )
 
 
 def trained_angle_name(session: Session) -> str:
@@ -202,7 +177,7 @@ def passive_stretches(session: Session) -> tuple[tuple[float, float], ...]:
     return tuple((time_s, end_s) for (time_s, kind), end_s in zip(changes, ends, strict=False) if kind == PASSIVE)
 
 
-def mask_passive(session: Session, measured: Sequence[MeasuredRepetition]) -> Session:
+def mask_passive(session: Session, measured: Sequence[RepetitionResult]) -> Session:
     """Return the session with the passive stretches marked as lost."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     is_passive = np.zeros(len(time_s), dtype=bool)
@@ -223,7 +198,7 @@ def mask_passive(session: Session, measured: Sequence[MeasuredRepetition]) -> Se
     return replace(session, status=status, motion=motion or session.motion, smoothed=smoothed)
 
 
-def measure_repetitions(trained: TrainedAngle, choices: RepetitionChoices) -> tuple[MeasuredRepetition, ...]:
+def measure_repetitions(trained: TrainedAngle, choices: RepetitionChoices) -> tuple[RepetitionResult, ...]:
     """Measure every repetition, included or not."""
     strokes = [
         measure_stroke(trained.measured, stroke, trained.measured_sd, smoothed=trained.is_smoothed)
@@ -253,7 +228,7 @@ def _measure_repetition(
     strokes: Sequence[StrokeMeasures],
     edges_s: tuple[float, float] | None,
     exclusion_reason: str,
-) -> MeasuredRepetition:
+) -> RepetitionResult:
     window = rep if edges_s is None else _with_edges(trained, rep, *edges_s)
     # Motion cut in the middle is cut within strokes: each belongs where it ends, unless a person cut there.
     first = bisect_left(strokes, window.start_s, key=lambda one: one.stroke.end_s)
@@ -272,30 +247,27 @@ def _measure_repetition(
     turned = (measured.maximum if is_high else measured.minimum).values
     if trained.is_from_thumb_up:
         turned = pronosupination_from_palm_down(turned)
-    return MeasuredRepetition(
-        window,
-        why,
-        own,
-        RepetitionRow(
-            start_s=start_s,
-            peak_s=peak_s,
-            end_s=end_s,
-            angle_rad=float(turned[0]) if known else math.nan,
-            arc_rad=float(measured.arc.values[0]) if known else math.nan,
-            arc_sd_rad=measured.arc.measurement_sd if known else math.nan,
-            peak_speed_rad_s=_combine_strokes(full, "peak_speed_rad_s", max),
-            peak_speed_sd_rad_s=_combine_strokes(full, "peak_speed_sd_rad_s", max),
-            movement_time_s=_movement_time_s(window, beside) if whole else math.nan,
-            sparc=_combine_strokes(full, "sparc", fmean),
-            movement_units=_combine_strokes(whole, "peaks", math.fsum),
-            pauses=_combine_strokes(whole, "pauses", math.fsum),
-            pause_s=_combine_strokes(whole, "pause_s", math.fsum),
-            at_least=known and (measured.top_limited or measured.bottom_limited),
-            counted=not exclusion_reason and not why,
-            reason=exclusion_reason or why,
-        ),
-        exclusion_reason,
+    row = RepetitionRow(
+        start_s=start_s,
+        peak_s=peak_s,
+        end_s=end_s,
+        angle_rad=float(turned[0]) if known else math.nan,
+        arc_rad=float(measured.arc.values[0]) if known else math.nan,
+        arc_sd_rad=measured.arc.measurement_sd if known else math.nan,
+        peak_speed_rad_s=_combine_strokes(full, "peak_speed_rad_s", max),
+        peak_speed_sd_rad_s=_combine_strokes(full, "peak_speed_sd_rad_s", max),
+        movement_time_s=_movement_time_s(window, beside) if whole else math.nan,
+        sparc=_combine_strokes(full, "sparc", fmean),
+        movement_units=_combine_strokes(whole, "peaks", math.fsum),
+        pauses=_combine_strokes(whole, "pauses", math.fsum),
+        pause_s=_combine_strokes(whole, "pause_s", math.fsum),
+        at_least=known and (measured.top_limited or measured.bottom_limited),
+        counted=not exclusion_reason and not why,
+        reason=exclusion_reason or why,
     )
+    first_s = start_s if math.isfinite(start_s) else window.start_s
+    last_s = end_s if math.isfinite(end_s) else window.end_s
+    return RepetitionResult(first_s, last_s, window, row, why, exclusion_reason, own)
 
 
 def _with_edges(trained: TrainedAngle, rep: Repetition, start_s: float, end_s: float) -> Repetition:

@@ -32,14 +32,11 @@ from carpus.core.results.norms import compute_total_shares
 from carpus.core.results.ranges import measure_joint_ranges, measure_still_angles, measure_wrist_ranges
 from carpus.core.results.repetition_rows import (
     ACTIVE,
-    PASSIVE,
-    MeasuredRepetition,
     RepetitionChoices,
     RepetitionResult,
     find_trained_angle,
     mask_passive,
     measure_repetitions,
-    to_repetition_results,
 )
 from carpus.core.results.task_measures import GuardedComputation, MeasureInput, compute_task_measures
 from carpus.core.results.valid_data import MeasurableSession, motion_estimate
@@ -290,13 +287,12 @@ def compute_session_results(
     choices, header, attempts = choices or RepetitionChoices(), session.header, GuardedComputation()
     seen = MeasurableSession.from_session(session)
     trained = attempts.compute("repetitions", lambda: find_trained_angle(seen), None)
-    measured: tuple[MeasuredRepetition, ...] = ()
+    repetitions: tuple[RepetitionResult, ...] = ()
     if trained is not None:
-        measured = attempts.compute("repetitions", lambda: measure_repetitions(trained, choices), ())
-    repetitions = to_repetition_results(measured)
-    counted = tuple(one.window for one in measured if one.row.counted)
-    helped = tuple(one.window for one in measured if one.exclusion_reason == PASSIVE and not one.unmeasured_reason)
-    active = mask_passive(session, measured)
+        repetitions = attempts.compute("repetitions", lambda: measure_repetitions(trained, choices), ())
+    counted = tuple(one.window for one in repetitions if one.is_counted)
+    helped = tuple(one.window for one in repetitions if one.is_passive)
+    active = mask_passive(session, repetitions)
     own = seen if active is session else MeasurableSession.from_session(active)
     over = seen if counted else own
     rows = attempts.compute("ranges", lambda: measure_wrist_ranges(over, counted), ())
@@ -309,7 +305,7 @@ def compute_session_results(
         passive += attempts.compute(
             "ranges of joints", lambda: measure_joint_ranges(seen.tracks, helped, seen.exercise), ()
         )
-    strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.is_half]
+    strokes = [stroke for one in repetitions if one.is_counted for stroke in one.strokes if not stroke.stroke.is_half]
     still = attempts.compute("other movements", lambda: measure_still_angles(own), ())
     speeds: tuple[Measure, ...] = ()
     if trained is not None:
@@ -325,7 +321,7 @@ def compute_session_results(
         )
     elif seen.exercise.angle is not None or seen.exercise.joint in seen.tracks:
         uncounted = "nothing_seen"
-    task = (*compute_task_measures(MeasureInput(own, trained, measured, choices)), *attempts.to_measures())
+    task = (*compute_task_measures(MeasureInput(own, trained, repetitions, choices)), *attempts.to_measures())
     pains = [(time_s, int(text)) for time_s, text in _events_of_kind(session, "pain") if text.isdigit()]
     return SessionResults(
         session_id=header.session_id,

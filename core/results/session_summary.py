@@ -250,8 +250,7 @@ def repetition_lines(figures: SessionResults) -> list[str]:
     """Return a line for each repetition."""
     lines = []
     for number, one in enumerate(figures.repetitions, 1):
-        if (row := one.row) is None:
-            continue
+        row = one.row
         least = "at least " if row.at_least else ""
         start, end = (
             format_rounded(time_s, 2) if math.isfinite(time_s) else "?" for time_s in (row.start_s, row.end_s)

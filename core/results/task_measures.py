@@ -28,7 +28,7 @@ from carpus.core.model.hand.protocols import DIGITS
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.types import FloatArray
 from carpus.core.results.measure import Measure, UnknownReason, summarise_values
-from carpus.core.results.repetition_rows import MeasuredRepetition, RepetitionChoices, TrainedAngle
+from carpus.core.results.repetition_rows import RepetitionChoices, RepetitionResult, TrainedAngle
 from carpus.core.results.valid_data import MeasurableSession, motion_estimate
 from carpus.core.session.values import Motion, Session
 
@@ -82,7 +82,7 @@ class MeasureInput:
 
     seen: MeasurableSession
     trained: TrainedAngle | None = None
-    repetitions: tuple[MeasuredRepetition, ...] = ()
+    repetitions: tuple[RepetitionResult, ...] = ()
     choices: RepetitionChoices = field(default_factory=RepetitionChoices)
 
     @property
@@ -90,9 +90,9 @@ class MeasureInput:
         return self.seen.session
 
     @property
-    def counted_repetitions(self) -> tuple[MeasuredRepetition, ...]:
+    def counted_repetitions(self) -> tuple[RepetitionResult, ...]:
         """Repetitions that the results include."""
-        return tuple(one for one in self.repetitions if one.row.counted)
+        return tuple(one for one in self.repetitions if one.is_counted)
 
     @cached_property
     def reaches(self) -> tuple[Reach, ...]:

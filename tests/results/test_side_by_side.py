@@ -21,7 +21,7 @@ from carpus.core.results.side_by_side import (
     order_pair,
     pair_incomparable_reasons,
 )
-from tests.results.days import days_ago
+from tests.results.days import days_ago, repetition
 from tests.ui.fakes import NOW, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
@@ -32,7 +32,7 @@ def repetitions(parts: list[tuple[float, float]], rest_s: float = 1.5) -> tuple[
     """Repetitions with pauses before them, and how long the recording is."""
     at, out = 0.0, []
     for pause_s, length_s in parts:
-        out.append(RepetitionResult(at + pause_s, at + pause_s + length_s, ""))
+        out.append(repetition(at + pause_s, at + pause_s + length_s))
         at += pause_s + length_s
     return out, at + rest_s
 
@@ -64,7 +64,7 @@ def test_align_playback_same_part_of_repetitions(
 
 
 def test_align_playback_crossed_edges_and_empty_recording() -> None:
-    crossed = [RepetitionResult(1.0, 4.0, ""), RepetitionResult(3.0, 5.0, "")]
+    crossed = [repetition(1.0, 4.0), repetition(3.0, 5.0)]
     plain, plain_s = repetitions([(1.0, 2.0), (0.0, 2.0)])
     together = align_playback(crossed, plain, (6.0, plain_s))
     assert (np.diff(together.first_s) >= 0.0).all()
