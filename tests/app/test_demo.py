@@ -27,7 +27,7 @@ def _said(desktop: Desktop) -> str:
     return " ".join([*words, desktop.shell.top_bar.camera.text()]).lower()
 
 
-def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -> None:
+def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop], monkeypatch: pytest.MonkeyPatch) -> None:
     desktop = demo()
     journey, panel = desktop.controller, desktop.welcome.panel
     qtbot.waitUntil(lambda: bool(panel.check_rows), timeout=60_000)
@@ -47,6 +47,7 @@ def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -
     assert "file" not in journey.patients.screen.card.start_button.text()
     journey.exercise.open(linden)
     looks_well()
+    monkeypatch.setattr(journey.camera.context.opener, "open", lambda _: None)
     journey.exercise.screen.primary_button.click()
     assert journey.place == "camera"
     assert journey.camera.screen.sources.value() == "practice"
