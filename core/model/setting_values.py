@@ -86,9 +86,14 @@ def convert_value(hint: Any, value: Any, name: str, file: str = "") -> Any:
         return float(value)
     if isinstance(hint, type) and type(value) is hint:
         return value
-    names = {float: "a number", int: "a whole number", bool: "true or false", str: "a text"}
-    wanted_words = " or ".join(map(str, arguments)) if origin is Literal else names.get(hint, "another kind of value")
-    raise SettingsInvalid(
-        name,
-        phrase("{value} is not {wanted_words}, in {file}", value=f"{value!r}", wanted_words=wanted_words, file=file),
-    )
+    found = {"value": f"{value!r}", "file": file}
+    reasons = {
+        float: phrase("{value} is not a number, in {file}", **found),
+        int: phrase("{value} is not a whole number, in {file}", **found),
+        bool: phrase("{value} is not true or false, in {file}", **found),
+        str: phrase("{value} is not a text, in {file}", **found),
+    }
+    reason = phrase("{value} is not valid, in {file}", **found)
+    if origin is Literal:
+        reason = phrase("{value} is none of {choices}, in {file}", choices=", ".join(map(str, arguments)), **found)
+    raise SettingsInvalid(name, reasons.get(hint, reason))

@@ -395,7 +395,7 @@ QUANTITIES: Mapping[str, Quantity] = {
         phrase("Thumb occluded"), "share", compute=measure_thumb_coherence, exercises=("thumb beside",)
     ),
     "coherent though hidden": Quantity(phrase("Plausible position while occluded"), "share"),
-    "known though hidden": Quantity(phrase("Position within 15° while occluded"), "share"),
+    "known though hidden": Quantity(phrase("Position known to within 15° while occluded"), "share"),
     "jump when seen again": Quantity(phrase("Position jump when visible again"), "mm"),
     "synergy": Quantity(
         phrase("Movement synergy (variance explained)"), "share", compute=measure_coordination, exercises=("together",)

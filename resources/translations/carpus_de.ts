@@ -349,7 +349,7 @@
     </message>
     <message>
         <source>Calculate · show the board</source>
-        <translation>Berechnen · Tafel zeigen</translation>
+        <translation>Berechnen · Tafel vor die Kamera halten</translation>
     </message>
     <message>
         <source>Calculate · 1 more image</source>
@@ -893,7 +893,7 @@
     </message>
     <message>
         <source>Check: {markers}. Press Enter to accept, or drag a label to another marker.</source>
-        <translation>Prüfen: {markers}. Mit Eingabe annehmen oder eine Bezeichnung auf einen anderen Marker ziehen.</translation>
+        <translation>Prüfen: {markers}. Mit der Eingabetaste annehmen oder eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
         <source>Is this the {marker}?</source>
@@ -909,7 +909,7 @@
     </message>
     <message>
         <source>Not found: {markers}. Press Enter to accept the others, then click these.</source>
-        <translation>Nicht gefunden: {markers}. Mit Eingabe die anderen übernehmen, dann diese anklicken.</translation>
+        <translation>Nicht gefunden: {markers}. Mit der Eingabetaste die anderen übernehmen, dann diese anklicken.</translation>
     </message>
     <message>
         <source>{markers} and {count} more</source>
@@ -1180,7 +1180,7 @@
         <translation>Zur Faust</translation>
     </message>
     <message>
-        <source>Bend your fingers to a hook</source>
+        <source>Bend your fingers into a hook</source>
         <translation>Beugen Sie die Finger zum Haken</translation>
     </message>
     <message>
@@ -1197,7 +1197,7 @@
     </message>
     <message>
         <source>Open your thumb wide</source>
-        <translation>Öffnen Sie den Daumen weit</translation>
+        <translation>Spreizen Sie den Daumen weit ab</translation>
     </message>
     <message>
         <source>Thumb wide</source>
@@ -1708,12 +1708,12 @@
         <translation>Nicht sichtbar: {joints}.</translation>
     </message>
     <message>
-        <source>Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.</source>
-        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Flexionssumme eines Fingers in einem Moment, in dem alle Gelenke sichtbar sind.</translation>
+        <source>Total active motion (TAM): a finger’s largest total flexion minus its smallest, with all joints visible.</source>
+        <translation>Aktive Gesamtbeweglichkeit (TAM): größte Flexionssumme eines Fingers minus die kleinste, bei sichtbaren Gelenken.</translation>
     </message>
     <message>
         <source>No total active motion (TAM): no finger had all joints visible at once.</source>
-        <translation>Keine aktive Gesamtbeweglichkeit (TAM): Bei keinem Finger waren alle Gelenke zugleich sichtbar.</translation>
+        <translation>Aktive Gesamtbeweglichkeit (TAM) nicht bestimmbar: Bei keinem Finger waren alle Gelenke zugleich sichtbar.</translation>
     </message>
     <message>
         <source>PIP joints</source>
@@ -1784,7 +1784,7 @@
         <translation>X (schwarz) zu den Fingern, Y (blau) zum Daumen, Z (orange) nach oben</translation>
     </message>
     <message>
-        <source>X (black) to the fingers, Y (blue) from the thumb, Z (orange) up</source>
+        <source>X (black) to the fingers, Y (blue) away from the thumb, Z (orange) up</source>
         <translation>X (schwarz) zu den Fingern, Y (blau) vom Daumen weg, Z (orange) nach oben</translation>
     </message>
     <message>
@@ -2148,8 +2148,8 @@
         <translation>höchstens {angle} (Grenze {limit})</translation>
     </message>
     <message>
-        <source>Smoothness (SPARC; 0 is smoothest)</source>
-        <translation>Gleichmäßigkeit (SPARC; 0 ist am besten)</translation>
+        <source>Smoothness (SPARC; closer to 0 is smoother)</source>
+        <translation>Gleichmäßigkeit (SPARC; näher an 0 ist besser)</translation>
     </message>
     <message>
         <source>Goal</source>
@@ -2440,8 +2440,8 @@
         <translation>Die Gelenke werden bereits erfasst. Die Leertaste startet die Aufnahme.</translation>
     </message>
     <message>
-        <source>Let the hand move a few times. Then the space bar saves everything.</source>
-        <translation>Lassen Sie den Patienten die Hand einige Male bewegen. Dann speichert die Leertaste alles.</translation>
+        <source>Let the hand move a few times. Then press the space bar to stop and save.</source>
+        <translation>Lassen Sie den Patienten die Hand einige Male bewegen. Dann beendet und speichert die Leertaste die Aufzeichnung.</translation>
     </message>
     <message>
         <source>These are the results. The key X excludes the current repetition.</source>
@@ -2569,7 +2569,7 @@
     </message>
     <message>
         <source>Click each of the two on its own marker.</source>
-        <translation>Klicken Sie für jede der beiden Bezeichnungen den eigenen Marker an.</translation>
+        <translation>Klicken Sie für beide Bezeichnungen jeweils den zugehörigen Marker an.</translation>
     </message>
     <message>
         <source>Click nearer to the marker, or check the light.</source>
@@ -2685,7 +2685,7 @@
     </message>
     <message>
         <source>Others on this computer can read it. In its properties, remove all rights of the group and of others, or run: chmod 700 &apos;{folder}&apos;</source>
-        <translation>Andere an diesem Computer können ihn lesen. Entziehen Sie in den Eigenschaften der Gruppe und anderen alle Rechte, oder führen Sie aus: chmod 700 &apos;{folder}&apos;</translation>
+        <translation>Andere an diesem Computer können diesen Ordner lesen. Öffnen Sie seine Eigenschaften, und nehmen Sie „Gruppe“ und „Andere“ alle Rechte. Oder führen Sie aus: chmod 700 &apos;{folder}&apos;</translation>
     </message>
     <message>
         <source>Packages</source>
@@ -3544,10 +3544,6 @@
         <translation>{value} ist kein zulässiger Wert (in {file})</translation>
     </message>
     <message>
-        <source>{value} is not {wanted_words}, in {file}</source>
-        <translation>{value} ist nicht {wanted_words} (in {file})</translation>
-    </message>
-    <message>
         <source>{value} frame {number}</source>
         <translation>{value}, Bild {number}</translation>
     </message>
@@ -3690,10 +3686,6 @@
     <message>
         <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
         <translation>Das Programmpaket enthält {packages} nicht. Ein aus dem Quelltext installiertes Carpus kann es verwenden.</translation>
-    </message>
-    <message>
-        <source>a study&apos;s table has the columns person, session and reference</source>
-        <translation>die Tabelle einer Studie hat die Spalten person, session und reference</translation>
     </message>
     <message>
         <source>not readable as a table: {why}</source>
@@ -4437,7 +4429,7 @@
     </message>
     <message>
         <source>Record again with colour and depth of the same size.</source>
-        <translation>Nehmen Sie neu auf, mit Farbe und Tiefe in gleicher Größe.</translation>
+        <translation>Nehmen Sie neu auf. Farb- und Tiefenbilder müssen gleich groß sein.</translation>
     </message>
     <message>
         <source>Record again, or correct the list of frames.</source>
@@ -4672,8 +4664,36 @@
         <translation>Sie haben keine Berechtigung, die Kamera zu öffnen ({detail}).</translation>
     </message>
     <message>
+        <source>a study&apos;s table needs the columns person, session and reference</source>
+        <translation>die Tabelle einer Studie braucht die Spalten person, session und reference</translation>
+    </message>
+    <message>
         <source>it contains more than one record</source>
         <translation>enthält mehr als einen Datensatz</translation>
+    </message>
+    <message>
+        <source>{value} is none of {choices}, in {file}</source>
+        <translation>{value} ist keine dieser Angaben: {choices} (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not a number, in {file}</source>
+        <translation>{value} ist keine Zahl (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not a text, in {file}</source>
+        <translation>{value} ist kein Text (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not a whole number, in {file}</source>
+        <translation>{value} ist keine ganze Zahl (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not true or false, in {file}</source>
+        <translation>{value} ist weder true noch false (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not valid, in {file}</source>
+        <translation>{value} ist ungültig (in {file})</translation>
     </message>
     <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
@@ -4977,7 +4997,7 @@
     </message>
     <message>
         <source>Their sessions stay separate.</source>
-        <translation>Ihre Sitzungen bleiben getrennt.</translation>
+        <translation>Die Sitzungen der beiden Patienten bleiben getrennt.</translation>
     </message>
     <message>
         <source>Hide or show names</source>
@@ -5548,8 +5568,8 @@
         <translation>Handstellung bei Verdeckung plausibel</translation>
     </message>
     <message>
-        <source>Position within 15° while occluded</source>
-        <translation>Handstellung bei Verdeckung auf 15° genau</translation>
+        <source>Position known to within 15° while occluded</source>
+        <translation>Bei Verdeckung bekannt auf 15° genau</translation>
     </message>
     <message>
         <source>Position jump when visible again</source>
@@ -8593,7 +8613,7 @@ von oben</translation>
     <name>NoticeStrip</name>
     <message>
         <source>Later</source>
-        <translation>Später</translation>
+        <translation>Nach unten</translation>
     </message>
     <message>
         <source>Esc</source>
@@ -8682,7 +8702,7 @@ von oben</translation>
     </message>
     <message>
         <source>Earlier</source>
-        <translation>Früher</translation>
+        <translation>Nach oben</translation>
     </message>
     <message>
         <source>Remove</source>
@@ -8784,7 +8804,7 @@ von oben</translation>
     <name>PatientForm</name>
     <message>
         <source>&amp;Another</source>
-        <translation>&amp;Anderer</translation>
+        <translation>&amp;Anderes</translation>
     </message>
     <message>
         <source>Right</source>
@@ -9194,8 +9214,8 @@ von oben</translation>
         <translation>Ergebnisse für die Praxissoftware</translation>
     </message>
     <message>
-        <source>The demo watches no folder.</source>
-        <translation>Die Demo überwacht keinen Ordner.</translation>
+        <source>The demo does not read patients from the clinic software.</source>
+        <translation>Die Demo liest keine Patienten aus der Praxissoftware.</translation>
     </message>
     <message>
         <source>Write results as FHIR R4 (JSON) too</source>
@@ -9695,8 +9715,8 @@ von oben</translation>
         <translation>Satz zum Einfügen</translation>
     </message>
     <message>
-        <source>Type part of a sentence</source>
-        <translation>Teil eines Satzes eingeben</translation>
+        <source>Search the saved sentences</source>
+        <translation>Gespeicherte Sätze durchsuchen</translation>
     </message>
     <message>
         <source>Insert</source>
@@ -10271,6 +10291,10 @@ von oben</translation>
         <translation>Darstellung</translation>
     </message>
     <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
         <translation>Carpus sucht nie online nach Aktualisierungen. Ob es eine neuere Version gibt, sehen Sie dort, wo Sie Carpus erhalten haben. Erstellen Sie eine Sicherung, und installieren Sie die neue Version über die vorhandene. Patienten, Sitzungen und Einstellungen bleiben.</translation>
     </message>
@@ -10393,10 +10417,6 @@ von oben</translation>
     <message>
         <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
         <translation>Zeigt Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Exportformate, Winkelreihenfolge und Streaming. Werte ändern sich nicht.</translation>
-    </message>
-    <message>
-        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
-        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die veröffentlichte Reihenfolge. Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
     </message>
 </context>
 <context>

@@ -1180,7 +1180,7 @@
         <translation>Chiudi</translation>
     </message>
     <message>
-        <source>Bend your fingers to a hook</source>
+        <source>Bend your fingers into a hook</source>
         <translation>Pieghi le dita a uncino</translation>
     </message>
     <message>
@@ -1241,7 +1241,7 @@
     </message>
     <message>
         <source>Close your fingers</source>
-        <translation>Chiuda le dita</translation>
+        <translation>Riavvicini le dita</translation>
     </message>
     <message>
         <source>Touch the next fingertip</source>
@@ -1708,8 +1708,8 @@
         <translation>Non visibili: {joints}.</translation>
     </message>
     <message>
-        <source>Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.</source>
-        <translation>Movimento attivo totale (TAM): massima somma delle flessioni di un dito in un istante con tutte le articolazioni visibili.</translation>
+        <source>Total active motion (TAM): a finger’s largest total flexion minus its smallest, with all joints visible.</source>
+        <translation>Movimento attivo totale (TAM): massima somma delle flessioni di un dito meno la minima, con tutte le articolazioni visibili.</translation>
     </message>
     <message>
         <source>No total active motion (TAM): no finger had all joints visible at once.</source>
@@ -1784,7 +1784,7 @@
         <translation>X (nero) verso le dita, Y (blu) verso il pollice, Z (arancione) in su</translation>
     </message>
     <message>
-        <source>X (black) to the fingers, Y (blue) from the thumb, Z (orange) up</source>
+        <source>X (black) to the fingers, Y (blue) away from the thumb, Z (orange) up</source>
         <translation>X (nero) verso le dita, Y (blu) via dal pollice, Z (arancione) in su</translation>
     </message>
     <message>
@@ -2148,8 +2148,8 @@
         <translation>al massimo {angle} (limite {limit})</translation>
     </message>
     <message>
-        <source>Smoothness (SPARC; 0 is smoothest)</source>
-        <translation>Fluidità (SPARC; 0 è la massima)</translation>
+        <source>Smoothness (SPARC; closer to 0 is smoother)</source>
+        <translation>Fluidità (SPARC; più vicino a 0 è migliore)</translation>
     </message>
     <message>
         <source>Goal</source>
@@ -2440,8 +2440,8 @@
         <translation>Le articolazioni sono già rilevate. La barra spaziatrice avvia la registrazione.</translation>
     </message>
     <message>
-        <source>Let the hand move a few times. Then the space bar saves everything.</source>
-        <translation>Far muovere la mano alcune volte. Poi la barra spaziatrice salva tutto.</translation>
+        <source>Let the hand move a few times. Then press the space bar to stop and save.</source>
+        <translation>Far muovere la mano alcune volte. Poi premere la barra spaziatrice per terminare e salvare.</translation>
     </message>
     <message>
         <source>These are the results. The key X excludes the current repetition.</source>
@@ -3465,7 +3465,7 @@
     </message>
     <message>
         <source>{angle}: the reference moves {percent} % as far as Carpus. It may have another unit or be another angle</source>
-        <translation>{angle}: il movimento del riferimento è pari a {percent} % di quello misurato da Carpus. Forse ha un’altra unità o indica un altro angolo</translation>
+        <translation>{angle}: movimento del riferimento rispetto a Carpus: {percent} %. Forse ha un’altra unità o indica un altro angolo</translation>
     </message>
     <message>
         <source>{calibration} has an impossible depth</source>
@@ -3542,10 +3542,6 @@
     <message>
         <source>{value} is not a possible number, in {file}</source>
         <translation>{value} non è un valore ammesso (in {file})</translation>
-    </message>
-    <message>
-        <source>{value} is not {wanted_words}, in {file}</source>
-        <translation>{value} non è {wanted_words} (in {file})</translation>
     </message>
     <message>
         <source>{value} frame {number}</source>
@@ -3690,10 +3686,6 @@
     <message>
         <source>The packaged program does not include {packages}. Carpus installed from source can use it.</source>
         <translation>Il pacchetto del programma non include {packages}. Carpus installato dai sorgenti può usarlo.</translation>
-    </message>
-    <message>
-        <source>a study&apos;s table has the columns person, session and reference</source>
-        <translation>la tabella di uno studio ha le colonne person, session e reference</translation>
     </message>
     <message>
         <source>not readable as a table: {why}</source>
@@ -4009,7 +4001,7 @@
     </message>
     <message>
         <source>{names}: their names belong to the other hand</source>
-        <translation>{names}: dal nome sono dell’altra mano</translation>
+        <translation>{names}: secondo il nome appartengono all’altra mano</translation>
     </message>
     <message>
         <source>{name}: cells that are not numbers were excluded ({count}), the first is “{cell}” in line {line}</source>
@@ -4672,8 +4664,36 @@
         <translation>Mancano i permessi per aprire la telecamera ({detail}).</translation>
     </message>
     <message>
+        <source>a study&apos;s table needs the columns person, session and reference</source>
+        <translation>la tabella di uno studio richiede le colonne person, session e reference</translation>
+    </message>
+    <message>
         <source>it contains more than one record</source>
         <translation>contiene più di un record</translation>
+    </message>
+    <message>
+        <source>{value} is none of {choices}, in {file}</source>
+        <translation>{value} non è tra i valori ammessi: {choices} (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not a number, in {file}</source>
+        <translation>{value} non è un numero (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not a text, in {file}</source>
+        <translation>{value} non è un testo (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not a whole number, in {file}</source>
+        <translation>{value} non è un numero intero (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not true or false, in {file}</source>
+        <translation>{value} non è né true né false (in {file})</translation>
+    </message>
+    <message>
+        <source>{value} is not valid, in {file}</source>
+        <translation>{value} non è valido (in {file})</translation>
     </message>
     <message>
         <source>“carpus track SESSION.h5 --output NEW.h5” repeats the smoothing.</source>
@@ -5293,7 +5313,7 @@
     </message>
     <message>
         <source>About half-way the PIP joints are occluded. Their range is a minimum value (≥).</source>
-        <translation>Circa a metà le articolazioni IFP sono nascoste. La loro escursione è un valore minimo (≥).</translation>
+        <translation>A circa metà del movimento le articolazioni IFP sono nascoste. La loro escursione è un valore minimo (≥).</translation>
     </message>
     <message>
         <source>At the end of a fist the PIP and DIP joints are occluded. Their ranges are minimum values (≥).</source>
@@ -5548,8 +5568,8 @@
         <translation>Posizione plausibile quando nascosta</translation>
     </message>
     <message>
-        <source>Position within 15° while occluded</source>
-        <translation>Posizione entro 15° quando nascosta</translation>
+        <source>Position known to within 15° while occluded</source>
+        <translation>Posizione nota entro 15° quando nascosta</translation>
     </message>
     <message>
         <source>Position jump when visible again</source>
@@ -5753,11 +5773,11 @@
     </message>
     <message>
         <source>all lengths are {share} % too long, by up to {length} mm</source>
-        <translation>tutte le lunghezze sono troppo grandi ({share} %, al massimo {length} mm)</translation>
+        <translation>tutte le lunghezze sono troppo lunghe ({share} %, errore fino a {length} mm)</translation>
     </message>
     <message>
         <source>all lengths are {share} % too short, by up to {length} mm</source>
-        <translation>tutte le lunghezze sono troppo piccole ({share} %, al massimo {length} mm)</translation>
+        <translation>tutte le lunghezze sono troppo corte ({share} %, errore fino a {length} mm)</translation>
     </message>
     <message>
         <source>{name}, mean ± SD</source>
@@ -8410,7 +8430,7 @@ dall’alto</translation>
     <name>MarkersScreen</name>
     <message>
         <source>Wrist cannot reach neutral…</source>
-        <translation>Polso non neutro…</translation>
+        <translation>Il polso non arriva in neutro…</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
@@ -9194,8 +9214,8 @@ dall’alto</translation>
         <translation>Risultati per il gestionale</translation>
     </message>
     <message>
-        <source>The demo watches no folder.</source>
-        <translation>La demo non sorveglia alcuna cartella.</translation>
+        <source>The demo does not read patients from the clinic software.</source>
+        <translation>La demo non legge pazienti dal gestionale.</translation>
     </message>
     <message>
         <source>Write results as FHIR R4 (JSON) too</source>
@@ -9695,8 +9715,8 @@ dall’alto</translation>
         <translation>Frase da inserire</translation>
     </message>
     <message>
-        <source>Type part of a sentence</source>
-        <translation>Scrivere parte di una frase</translation>
+        <source>Search the saved sentences</source>
+        <translation>Cercare tra le frasi salvate</translation>
     </message>
     <message>
         <source>Insert</source>
@@ -10271,6 +10291,10 @@ dall’alto</translation>
         <translation>Aspetto</translation>
     </message>
     <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
         <translation>Carpus non cerca mai aggiornamenti in rete. Confrontare questa versione con l’ultima disponibile dove è stato ottenuto Carpus. Eseguire una copia di sicurezza, poi installare la nuova versione sopra questa. Pazienti, sedute e impostazioni restano.</translation>
     </message>
@@ -10393,10 +10417,6 @@ dall’alto</translation>
     <message>
         <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
         <translation>Mostra percorso e assi, velocità, la pagina del movimento nelle relazioni, tutti i formati di esportazione, ordine degli angoli e streaming. I valori non cambiano.</translation>
-    </message>
-    <message>
-        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
-        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono l’ordine pubblicato. Sedute con ordini diversi non si confrontano.</translation>
     </message>
 </context>
 <context>

@@ -44,7 +44,7 @@ def motion_page(
         parts += _path_section(tr("Fingertip paths"), finger_paths(motion, 0), height, words)
     axes = tr("X (black) to the fingers, Y (blue) to the thumb, Z (orange) up")
     if motion.side == "left":
-        axes = tr("X (black) to the fingers, Y (blue) from the thumb, Z (orange) up")
+        axes = tr("X (black) to the fingers, Y (blue) away from the thumb, Z (orange) up")
 
     def curves_part(kind: MotionKind, heading: str, aside: str, share: float) -> list[Part]:
         plot = MotionPlot(curves, results.exercise, results.repetitions, -1, motion=motion, kind=kind)

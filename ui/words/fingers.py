@@ -173,7 +173,9 @@ def total_words(results: SessionResults) -> list[str]:
     totals = [row for row in results.joint_ranges if is_total_active_motion(row.subject)]
     if not totals:
         return []
-    words = [tr("Total active motion (TAM): largest sum of a finger’s flexion at one moment with all joints visible.")]
+    words = [
+        tr("Total active motion (TAM): a finger’s largest total flexion minus its smallest, with all joints visible.")
+    ]
     if not any(row.count for row in totals):
         words = [tr("No total active motion (TAM): no finger had all joints visible at once.")]
     elif any(not row.count for row in totals):

@@ -279,7 +279,7 @@ def research_lines(results: SessionResults) -> list[tuple[str, str]]:
     if smooth is not None and smooth.count:
         spread = f"{gap}±{gap}{numbers.format_fixed(smooth.sd, 1)}" if math.isfinite(smooth.sd) else ""
         value = numbers.format_fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
-        lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
+        lines.append((tr("Smoothness (SPARC; closer to 0 is smoother)"), f"{value}{spread}"))
     if pauses is not None and pause_time is not None and pauses.count:
         words = tr("{count} per movement, {seconds} s in total") if pauses.mean else tr("none")
         count, seconds = numbers.format_fixed(pauses.mean, 1), numbers.format_fixed(pause_time.mean, 1)

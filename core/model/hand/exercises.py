@@ -156,7 +156,7 @@ EXERCISES = (
         instruction=phrase("Keep the MCP joints straight. Bend the PIP and DIP joints into a hook, then straighten."),
         position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
         limit=phrase("About half-way the PIP joints are occluded. Their range is a minimum value (≥)."),
-        adult_cues=(phrase("Bend your fingers to a hook"),) * 2, child_cues=(phrase("Hook"),) * 2,
+        adult_cues=(phrase("Bend your fingers into a hook"),) * 2, child_cues=(phrase("Hook"),) * 2,
         return_cue=phrase("Straighten your fingers"), simulated_motion="hook",
         has_free_dip=True,
         has_total_motion=False,

@@ -107,7 +107,7 @@ def read_study_table(path: Path, parse_mapping: Callable[[str], Mapping[str, str
     """Read the rows of a study. Raises :class:`ReferenceUnreadable`."""
     table = tables.read_table(path, REQUIRED_COLUMNS)
     if not {name.lower() for name in table.names} >= set(REQUIRED_COLUMNS):
-        raise ReferenceUnreadable(path, phrase("a study's table has the columns person, session and reference"))
+        raise ReferenceUnreadable(path, phrase("a study's table needs the columns person, session and reference"))
     try:
         return tuple(_parse_row(path, table.row(k), parse_mapping) for k in range(len(table.rows)))
     except ValueError as cause:

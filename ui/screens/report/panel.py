@@ -92,7 +92,7 @@ class ReportPanel(QWidget):
         completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         box.setCompleter(completer)
         if (line := box.lineEdit()) is not None:
-            line.setPlaceholderText(self.tr("Type part of a sentence"))
+            line.setPlaceholderText(self.tr("Search the saved sentences"))
         box.setToolTip(
             self.tr("Placeholders for the session’s values: {places}").replace(
                 "{places}", ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)

@@ -36,7 +36,8 @@ class PracticeSystemCard(Card):
         self.test_text = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self.add_heading(self.tr("Clinic software (GDT)"), words)
         if is_demo:
-            self.body.addWidget(Text(theme, self.tr("The demo watches no folder."), 14, SEMIBOLD, "warn", wrap=True))
+            note = self.tr("The demo does not read patients from the clinic software.")
+            self.body.addWidget(Text(theme, note, 14, SEMIBOLD, "warn", wrap=True))
         titles = (self.tr("Patients from the clinic software"), self.tr("Results for the clinic software"))
         for number, title in enumerate(titles):
             row = row_layout(self.folder_buttons[number], self.clear_buttons[number], STRETCH, gap=8)

@@ -80,7 +80,7 @@ def bubble_words(bubble: Bubble) -> str:
         "click": tr("Check that every label is on its marker, then press Enter. Click the markers requested above."),
         "check": tr("Every marker has its label and all checks are good. Start measuring here."),
         "record": tr("The joints are already tracked. The space bar starts the recording."),
-        "stop": tr("Let the hand move a few times. Then the space bar saves everything."),
+        "stop": tr("Let the hand move a few times. Then press the space bar to stop and save."),
         "results": tr("These are the results. The key X excludes the current repetition."),
         "report": tr("Make the report of this session here."),
         "save": tr("Save the report as a PDF. It contains only the pseudonym."),
