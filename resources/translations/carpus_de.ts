@@ -10291,10 +10291,6 @@ von oben</translation>
         <translation>Darstellung</translation>
     </message>
     <message>
-        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
         <translation>Carpus sucht nie online nach Aktualisierungen. Ob es eine neuere Version gibt, sehen Sie dort, wo Sie Carpus erhalten haben. Erstellen Sie eine Sicherung, und installieren Sie die neue Version über die vorhandene. Patienten, Sitzungen und Einstellungen bleiben.</translation>
     </message>
@@ -10337,6 +10333,10 @@ von oben</translation>
     <message>
         <source>Angle order</source>
         <translation>Winkelreihenfolge</translation>
+    </message>
+    <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the papers’ order (ZYX). Sessions with different orders are not compared.</source>
+        <translation>Reihenfolge der Handgelenkwinkel in Auswertung, Verlauf und Berichten. Sitzungsdateien behalten die Reihenfolge der Fachartikel (ZYX). Sitzungen mit verschiedener Reihenfolge werden nicht verglichen.</translation>
     </message>
     <message>
         <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>

@@ -10291,10 +10291,6 @@ dall’alto</translation>
         <translation>Aspetto</translation>
     </message>
     <message>
-        <source>Order of the wrist angles in review, progress and reports. Session files keep the published order. Sessions with different orders are not compared.</source>
-        <translation type="unfinished"></translation>
-    </message>
-    <message>
         <source>Carpus never checks for updates online. Compare this version with the latest one where you got Carpus. Back up, then install it over this one. Patients, sessions and settings stay.</source>
         <translation>Carpus non cerca mai aggiornamenti in rete. Confrontare questa versione con l’ultima disponibile dove è stato ottenuto Carpus. Eseguire una copia di sicurezza, poi installare la nuova versione sopra questa. Pazienti, sedute e impostazioni restano.</translation>
     </message>
@@ -10337,6 +10333,10 @@ dall’alto</translation>
     <message>
         <source>Angle order</source>
         <translation>Ordine degli angoli</translation>
+    </message>
+    <message>
+        <source>Order of the wrist angles in review, progress and reports. Session files keep the papers’ order (ZYX). Sessions with different orders are not compared.</source>
+        <translation>Ordine degli angoli del polso in revisione, andamento e referti. I file delle sedute mantengono l’ordine degli articoli scientifici (ZYX). Le sedute con ordine diverso non vengono confrontate.</translation>
     </message>
     <message>
         <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>

@@ -104,8 +104,8 @@ class SettingsScreen(QWidget):
             (
                 "research", self.tr("Angle order"),
                 self.tr(
-                    "Order of the wrist angles in review, progress and reports. Session files keep the published "
-                    "order. Sessions with different orders are not compared."
+                    "Order of the wrist angles in review, progress and reports. Session files keep the papers’ "
+                    "order (ZYX). Sessions with different orders are not compared."
                 ),
                 [Field("angle_order", "", ChoiceRow(theme, orders))],
             ),
