@@ -10336,7 +10336,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Order of the wrist angles in review, progress and reports. Session files keep the papers’ order (ZYX). Sessions with different orders are not compared.</source>
-        <translation>Ordine degli angoli del polso in revisione, andamento e referti. I file delle sedute mantengono l’ordine degli articoli scientifici (ZYX). Le sedute con ordine diverso non vengono confrontate.</translation>
+        <translation>Ordine degli angoli del polso in revisione, andamento e relazioni. I file delle sedute mantengono l’ordine degli articoli scientifici (ZYX). Sedute con ordini diversi non si confrontano.</translation>
     </message>
     <message>
         <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>
