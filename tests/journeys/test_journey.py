@@ -134,7 +134,7 @@ def test_whole_journey_by_mouse(
     live = journey.live.screen
     wait_until(qtbot, lambda: not live.recording.is_hand_resting())
     can_move, live.recording.is_hand_resting = live.recording.is_hand_resting, lambda: True
-    wait_until(qtbot, lambda: "drawn" in live.controls.light_view.status_light.state)
+    wait_until(qtbot, lambda: "Preparing" in live.controls.light_view.status_light.state)
     assert not journey.messages.is_busy, "a card would take Space from the recording"
     click(qtbot, live.controls.main_button)
     assert live.recording.state == "off", "a still hand is not recorded"
