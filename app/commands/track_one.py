@@ -258,6 +258,6 @@ def print_report(report: TrackReport) -> list[str]:
     )
     session = read_session(report.output)
     results = compute_session_results(session)
-    for line in range_lines(session, results):
+    for line in range_lines(results):
         print(line.strip())
     return exercise_warnings(session, results)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,13 +14,12 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import ASSUMED, DepthSensor
-from carpus.core.model.hand.exercises import DIRECTIONS, EXERCISES, PRONOSUPINATION
-from carpus.core.model.hand.forearm_rotation import is_counted_from_thumb_up, to_clinical_rad
+from carpus.core.model.hand.exercises import DIRECTIONS, EXERCISES
+from carpus.core.model.hand.forearm_rotation import to_clinical_rad
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.platform.provenance import parameter_section
-from carpus.core.results.measure import is_total_active_motion
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import SessionResults, compute_session_results, parse_camera
 from carpus.core.session.reader import has_raw
@@ -29,8 +27,6 @@ from carpus.core.session.values import Session
 
 _TYPICAL_DISTANCE_M = 0.7
 """Camera to hand."""
-LIMITED_BY_VIEW = ", limited by the camera's view"
-FREE_MOVEMENT = "FREE"
 
 
 def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
@@ -38,9 +34,8 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
     header, figures = session.header, compute_session_results(session, choices)
     lines = [
         *identity_lines(session),
-        "Range of motion",
-        *range_lines(session, figures),
-        *_joint_range_lines(session, figures),
+        "Range of motion (TAM: total active motion; >=, <=: limited by the camera's view)",
+        *range_lines(figures),
         *repetition_lines(figures),
         *_calibration_lines(session),
         _line("Camera", camera_text(session.camera) + _calibration_age(header.parameters)),
@@ -186,37 +181,20 @@ def _status_shares(session: Session) -> str:
     )
 
 
-def range_lines(session: Session, figures: SessionResults) -> list[str]:
-    """Return the range of each wrist angle as in review, report and export.
-
-    Of the trained angle the mean of the repetitions, else over the whole recording.
-    """
-    header = replace(session.header, exercise=FREE_MOVEMENT)
-    whole = compute_session_results(replace(session, header=header)) if figures.exercise.has_repetitions else figures
-    lines = []
-    for angle, stored_name in enumerate(WRIST_ANGLES):
-        only_arc = angle == PRONOSUPINATION and not is_counted_from_thumb_up(figures.exercise)
-        name = stored_name
-        if angle == PRONOSUPINATION:  # whose 0 in the files is palm down
-            name = "rotation" if only_arc else "forearm, thumb up"
-        of = figures if figures.exercise.angle == angle else whole
-        rows = {row.quantity: row for row in of.wrist_ranges if row.wrist_angle == angle}
-        if "arc" not in rows:
-            lines.append(f"  {name:<18} not measured")
-            continue
-        positive, negative = DIRECTIONS[angle]
-        arc = rows["arc"].mean
-        # Without repetitions a side that was never reached has no row: it lies as far back as the arc says.
-        low = -rows[negative].mean if negative in rows else None
-        high = rows[positive].mean if positive in rows else arc + (low or 0.0)
-        low = high - arc if low is None else low
-        text = f"arc {format_rounded(arc, 1)}°"
-        if not only_arc:
-            text = f"from {_angle_text(angle, low)} to {_angle_text(angle, high)}, {text}"
-        if of.repetition_count:
-            text += ", of 1 repetition" if of.repetition_count == 1 else f", mean of {of.repetition_count} repetitions"
-        lines.append(f"  {name:<18} {text}" + (LIMITED_BY_VIEW if rows["arc"].is_lower_bound else ""))
-    return lines
+def range_lines(results: SessionResults) -> list[str]:
+    """Return the ranges of wrist angles, joints and fingers as the table of results has them."""
+    lines, rows = [], (*results.wrist_ranges, *results.joint_ranges)
+    for subject in dict.fromkeys(row.subject for row in rows):
+        known = [row for row in rows if row.subject == subject and row.count]
+        parts = [f"{row.quantity} {row.comparator}{format_rounded(row.mean, 1)}°" for row in known]
+        if known and results.repetition_count:
+            parts.append(f"mean of {_count_text(known[0].count, 'repetition')}")
+        if known and math.isfinite(known[0].seen_share):
+            parts.append(f"visible {format_rounded(100.0 * known[0].seen_share)} %")
+        if any(row.is_inferred for row in known):
+            parts.append("DIP not measured")
+        lines.append(f"  {subject:<18} {', '.join(parts) or 'not measured'}")
+    return lines or ["  not measured"]
 
 
 MIN_ARC_DEG, MAIN_ARC_RATIO = 15.0, 3.0
@@ -266,31 +244,6 @@ def repetition_lines(figures: SessionResults) -> list[str]:
             parts.append(f"{format_rounded(row.pauses)} stops of {format_rounded(row.pause_s, 1)} s in all")
         parts += [] if row.counted else [f"not counted: {row.reason.replace('_', ' ')}"]
         lines.append(_line("Repetition" if number == 1 else "", f"{number}: {', '.join(parts)}"))
-    return lines
-
-
-def _joint_range_lines(session: Session, figures: SessionResults) -> list[str]:
-    """Return ranges of every joint while it was seen, and the TAM of every finger."""
-    if not session.header.joint_names:
-        return []
-    ends = {row.key: row.mean for row in figures.joint_ranges}
-    over = "mean of the repetitions, " if figures.repetition_count else ""
-    lines = [f"Joints of the fingers, {over}while they were seen (TAM: total active motion)"]
-    for row in figures.joint_ranges:
-        if row.quantity != "arc":
-            continue
-        if not row.count:
-            lines.append(f"  {row.subject:<18} never seen")
-            continue
-        low, high = ends[row.subject, "extension"], ends[row.subject, "flexion"]
-        text = f"arc {format_rounded(row.mean, 1)}°, seen {format_rounded(100.0 * row.seen_share)} %"
-        if is_total_active_motion(row.subject):
-            total, flexion, deficit = (format_rounded(value, 1) for value in (row.mean, high, low))
-            text = f"{total}°: bending {flexion}° less {deficit}° to straight"
-        else:
-            text = f"from {format_rounded(low, 1)}° to {format_rounded(high, 1)}°, {text}"
-        text += ", end joint not measured" if row.is_inferred else ""
-        lines.append(f"  {row.subject:<18} {text}" + (LIMITED_BY_VIEW if row.is_lower_bound else ""))
     return lines
 
 
