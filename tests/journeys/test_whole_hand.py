@@ -38,10 +38,7 @@ def test_whole_hand_from_set_up_to_session_file(
     wait_for_place(qtbot, desktop.controller, "exercise")
     click(qtbot, journey.exercise.screen.protocol.buttons()[1])
     click(qtbot, journey.exercise.screen.exercises.option("FIST_COMPOSITE"))
-    click(qtbot, journey.exercise.screen.primary_button)
-    wait_for_place(qtbot, desktop.controller, "camera")
-    click(qtbot, journey.camera.screen.sources.option("practice"))
-    click(qtbot, journey.camera.screen.primary_button)
+    click(qtbot, journey.exercise.screen.primary_button)  # the practice patient's camera is ready: it opens at once
     wait_for_still_hand(qtbot, desktop)
     click(qtbot, markers.primary_button)
     assert markers.labels.order == HAND21.markers
