@@ -40,13 +40,12 @@ SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
 TRACKING = ("detection", "calibration", "tracker")
 """Sections that configure tracking."""
 DATA_VARIABLE = "CARPUS_DATA"
-OBSOLETE = {
+OBSOLETE = {"updates"} | {
     f"{section}.{name}"
     for section, names in {
         "live": "folder moved_stall_s told_stall_s recent_frames history_s row_bytes picture_bytes stop_patience_s",
         "report": "agreement_limit_deg retest_days",
         "screen": "keys",
-        "updates": "folder",
         "calibration": "still_px enough_frames pixel_sd_px pixel_stays_px same_disc_px least_discs most_length_change "
         "candidates naming finger_order palm_names side odd_disc registration back",
         "tracker": "holding finding readout doubt said shape_news shape_stale mode_dwell_s unseen_scale rate_memory_s "

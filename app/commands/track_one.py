@@ -31,7 +31,7 @@ from carpus.core.model.errors import RecordingMissing
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.stored_settings import StoredSettings, list_differences
-from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from carpus.core.pipeline.track import LIVE_LABEL, TrackReport, TrackSettings, retrack_session, track_recording
 from carpus.core.platform.version import __version__
 from carpus.core.research.papers.hand_model import PaperSettings
 from carpus.core.research.papers.track_settings import PaperTrackSettings, settings_from_json
@@ -210,6 +210,10 @@ def _retrack_session(arguments: argparse.Namespace, *, was_warned: bool) -> int:
     print(f"Origin: session {header.session_id}, of recording {header.recording_id}")
     for line in _describe_differences(before, settings, header.software_version):
         print(line)
+    if labels := sum(event.kind == LIVE_LABEL for event in read_session(arguments.recording).events):
+        print_message(
+            f"labels given while measuring ({labels}) are not applied again; check the markers in the window."
+        )
     return 0
 
 

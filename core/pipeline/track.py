@@ -113,13 +113,13 @@ class FramePipeline(Generic[AnyTracker]):
 
 SMOOTHING_FAILED = "not_looked_back"
 """Event of a session whose smoothing failed."""
-_PROCESSING_EVENTS = (SMOOTHING_FAILED, "spot_said")
-"""The second is a label given while Carpus 0.2.0 measured, which is not applied again."""
+LIVE_LABEL = "spot_said"
+"""Event of a label that was given while Carpus 0.2.0 measured; it is not applied again."""
 
 
 def session_notes(session: Session) -> list[Event]:
     """Return the events of a session, without those of its processing."""
-    return [event for event in session.events if event.kind not in _PROCESSING_EVENTS]
+    return [event for event in session.events if event.kind not in (SMOOTHING_FAILED, LIVE_LABEL)]
 
 
 class SessionFrames:

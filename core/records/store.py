@@ -6,7 +6,7 @@ import sqlite3
 import time
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
@@ -59,7 +59,8 @@ class Store:
         """The sessions lie in a folder of several computers, which is never created here."""
         if copy is None:
             make_private_folder(folder)
-            (folder / ".reserve").unlink(missing_ok=True)  # room on the disk that Carpus 0.2.0 kept
+            with suppress(OSError):  # in a folder that can only be read it stays
+                (folder / ".reserve").unlink()  # room on the disk that Carpus 0.2.0 kept
             if not self.uses_share:
                 make_private_folder(self.sessions_folder)
         self._on_fault, self._reported_rows = on_fault, set[str]()

@@ -143,7 +143,8 @@ def test_settings_of_earlier_versions_that_are_gone_are_ignored_with_a_line_in_t
     for place in OBSOLETE:
         section, _, name = place.rpartition(".")
         caplog.clear()
-        assert load_settings(write_settings(tmp_path, f"[{section}]\n{name} = 3\n")) == load_settings(tmp_path / "none")
+        text = f"[{section}]\n{name} = 3\n" if section else f"[{name}]\n"
+        assert load_settings(write_settings(tmp_path, text)) == load_settings(tmp_path / "none")
         assert place in caplog.text
 
 

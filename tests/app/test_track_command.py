@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -28,10 +29,15 @@ from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
 
 
-def store_recording(path: Path, protocol: MarkerProtocol = WRIST6, version: str = __version__, **header: Any) -> Path:
-    """A session without a frame."""
+def store_recording(
+    path: Path, protocol: MarkerProtocol = WRIST6, version: str = __version__, kinds: Sequence[str] = (), **header: Any
+) -> Path:
+    """A session without a frame, with events of these kinds."""
     made = replace(new_header(hand="right", protocol=protocol, **header), software_version=version)
-    SessionWriter.create(path, made, CAMERA, make_calibration(protocol)).close()
+    writer = SessionWriter.create(path, made, CAMERA, make_calibration(protocol))
+    for kind in kinds:
+        writer.add_event(1.0, kind, "words")
+    writer.close()
     return path
 
 
@@ -83,6 +89,15 @@ def test_other_version_and_removed_setting_are_reported(tmp_path: Path, command:
     assert done.code == 0
     assert "was 0.0.9" in done.out
     assert "no settings any more: tracker.oracle" in done.out
+
+
+def test_live_labels_of_an_older_session_are_not_applied_again_and_reported(tmp_path: Path, command: Command) -> None:
+    session = store_recording(tmp_path / "session.h5", kinds=("spot_said", "note", "spot_said"), version="0.2.0")
+    done = command("track", session, "--output", tmp_path / "again.h5")
+    assert (done.code, "labels given while measuring (2) are not applied again" in done.err) == (0, True)
+    assert [event.kind for event in read_session(tmp_path / "again.h5").events] == ["note"]
+    assert [event.kind for event in read_session(session).events] == ["spot_said", "note", "spot_said"]
+    assert "labels" not in command("track", tmp_path / "again.h5", "--output", tmp_path / "third.h5").err
 
 
 @pytest.mark.parametrize(

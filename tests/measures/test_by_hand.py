@@ -92,6 +92,10 @@ def test_questionnaire_scores_run_from_0_to_100_and_lack_answers_as_published() 
         blank = " " if item.max_answer > 9 else ""
         assert item.parse_answers(blank.join(["-", str(item.max_answer)]))[1] == item.max_answer
         assert item.parse_answers(f"{item.max_answer + 1}") is None
+    for name, most_lacking in (("QUICK_DASH", 1), ("DASH", 3), ("PRWE", 0)):
+        item = QUESTIONNAIRES[name]
+        scores = [item.compute_score([1.0] * (item.item_count - k) + [math.nan] * k) for k in range(5)]
+        assert [math.isnan(one) for one in scores].index(True) == most_lacking + 1, name
     pain_counts_double = QUESTIONNAIRES["PRWE"].compute_score([10.0] * 5 + [0.0] * 10)
     assert pain_counts_double == QUESTIONNAIRES["PRWE"].compute_score([0.0] * 5 + [10.0] * 10) == 50.0
 

@@ -93,6 +93,28 @@ def test_reading_commands_work_in_read_only_folder(
     }
 
 
+def test_reading_commands_work_in_share_that_keeps_its_files(
+    tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A share that lets nobody delete: the reserve of 0.2.0 stays."""
+    with open_store(tmp_path) as house:
+        house.log.write_entry("locked", "program")
+    reserve, unlink = tmp_path / ".reserve", Path.unlink
+    reserve.touch()
+
+    def keep(path: Path, missing_ok: bool = False) -> None:
+        if path == reserve:
+            raise PermissionError(path)
+        unlink(path, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", keep)
+    log = command("log", "--data-folder", tmp_path)
+    assert (log.code, "locked" in log.out, reserve.exists()) == (0, True, True)
+    monkeypatch.undo()
+    command("log", "--data-folder", tmp_path)
+    assert not reserve.exists()
+
+
 def test_log_command_creates_no_store(tmp_path: Path, command: Command) -> None:
     tmp_path.chmod(0o755)
     for words in (("log",), ("erase", "Linden 42"), ("backup", tmp_path.with_name("disk"))):

@@ -264,6 +264,8 @@ def test_range_table_gives_the_share_of_the_other_hand() -> None:
     assert shares(half, made) == {"50\N{NO-BREAK SPACE}%)"}
     assert {one[:1] for one in shares(hidden, half)} == {"≥"}
     assert shares(half, hidden) == {""}, "of a range that was not seen whole"
+    short = replace(half, measures=tuple(replace(one, mean=-one.mean) for one in half.measures))
+    assert shares(short, made) == {""}, "degrees that lack to neutral are no share of a range"
 
 
 def test_further_measure_is_one_row_of_the_table(monkeypatch: pytest.MonkeyPatch) -> None:

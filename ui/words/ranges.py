@@ -186,11 +186,12 @@ def _line_of_range(
     change: Comparison | None, is_short: bool, person: Person | None,
 ) -> TableRow:  # fmt: skip
     name = terms.movement_name(row.quantity)
+    before, beside = (item.find(*row.key) if item else None for item in (previous, other_hand))
+    share = _share_words(row, beside) if beside else ""
     if is_deficit(row):
         name, row = terms.deficit_name(row.quantity), negate_measure(row)
     if results.exercise.angle is None and row.quantity == "arc":
         name = terms.arc_name(row.wrist_angle)
-    before, beside = (item.find(*row.key) if item else None for item in (previous, other_hand))
     text = ""
     if change is not None:
         text = short_change_words(change.verdict, change.display_difference_deg, change.limit_deg)
@@ -205,7 +206,7 @@ def _line_of_range(
         name if row.quantity == "arc" else Cell(name, MEDIUM, mark_token=CURVE_TOKENS[row.wrist_angle]),
         mean_words(row),
         terms.end_words(row.best, row.quantity),
-        f"{terms.end_words(beside.mean, row.quantity)}{_share_words(row, beside)}" if beside else "",
+        f"{terms.end_words(beside.mean, row.quantity)}{share}" if beside else "",
         numbers.UNKNOWN if norm is None else numbers.format_degree_range(norm.low_deg, norm.high_deg),
         terms.end_words(before.mean, row.quantity) if before else "",
         Cell(words, MEDIUM, VERDICT_TOKENS[verdict]) if verdict in VERDICT_TOKENS else words,
