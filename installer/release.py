@@ -38,7 +38,7 @@ def version_of(text: str) -> str:
 
 
 def changes_of(changelog: str, version: str) -> str:
-    """What the changelog says under ``## [version] - date``. Raises :class:`NotReleasableError` for nothing."""
+    """Return the changelog below ``## [version] - date``; raises :class:`NotReleasableError` if empty."""
     head = re.search(rf"^## \[{re.escape(version)}\] - \d{{4}}-\d\d-\d\d$", changelog, re.MULTILINE)
     if head is None:
         raise NotReleasableError(
@@ -69,14 +69,14 @@ def checksums(paths: list[Path]) -> str:
 
 
 def run(*command: str | Path) -> None:
-    """A step that must succeed; it prints what it prints."""
+    """Run a step that must succeed and prints for itself."""
     print("release:", *command, flush=True)
     if subprocess.run([str(word) for word in command], cwd=ROOT, check=False).returncode:
         raise NotReleasableError(f"“{' '.join(map(str, command))}” failed")
 
 
 def asked(*command: str, folder: Path = ROOT) -> str:
-    """What a command prints that runs in ``folder``."""
+    """Return what a command prints that runs in ``folder``."""
     return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
@@ -92,7 +92,7 @@ def try_installed(path: Path) -> None:
 
 
 def write_apt(folder: Path, packages: list[Path], key: str) -> None:
-    """A flat apt repository of Debian packages; with a key signed, the public half beside it as ``carpus.gpg``."""
+    """Make a flat apt repository of Debian packages, signed if there is a key (public half: ``carpus.gpg``)."""
     if shutil.which("apt-ftparchive") is None:
         raise NotReleasableError("apt-ftparchive is missing: apt-get install apt-utils")
     folder.mkdir(parents=True)

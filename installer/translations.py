@@ -45,7 +45,7 @@ def hidden_texts() -> dict[str, set[str]]:
 
 
 def further_source() -> str:
-    """A source with all texts that ``lupdate`` does not find by itself."""
+    """Return a source with all texts that ``lupdate`` does not find by itself."""
     lines = [f"tr({_literal(text)})" for text in phrase_texts()]
     for owner, texts in sorted(hidden_texts().items()):
         indent = "        " if owner else ""
@@ -55,7 +55,7 @@ def further_source() -> str:
 
 
 def phrase_texts() -> list[str]:
-    """The templates of ``phrase("...")``, sorted; their context is always the empty one."""
+    """Return the templates of ``phrase("...")``, sorted; their context is always the empty one."""
     found = set()
     for part in ("core", "app", "ui"):
         for path in (ROOT / part).rglob("*.py"):
@@ -66,7 +66,7 @@ def phrase_texts() -> list[str]:
 
 
 def phrase_calls(tree: ast.AST) -> list[tuple[str, ast.Call]]:
-    """Calls of ``phrase`` with their templates; without a literal there is nothing to translate."""
+    """Return calls of ``phrase`` with their templates; without a literal there is nothing to translate."""
     return [
         (node.args[0].value, node)
         for node in ast.walk(tree)
@@ -106,7 +106,7 @@ def missing(kept: Path) -> list[tuple[str, str]]:
 
 
 def _literal(text: str) -> str:
-    """A text as the tool reads it: it knows no escapes by number."""
+    """Return a text as the tool reads it: it knows no escapes by number."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
     return f'"{escaped}"'
 

@@ -59,7 +59,7 @@ def say(text: str) -> None:
 
 
 def run(*command: str | Path, **options: object) -> str:
-    """A command that must succeed; what it printed."""
+    """Run a command that must succeed; return what it printed."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=ROOT, **options)  # type: ignore[call-overload]
     if done.returncode:
         sys.exit(f"package: {Path(str(command[0])).name} failed\n{(done.stdout + done.stderr)[-3000:]}")
@@ -81,7 +81,7 @@ def commit_date() -> str:
 
 
 def environment() -> Path:
-    """The Python of an environment with the locked packages and the tools; made anew when a lock changes."""
+    """Return the Python of an environment with the locked packages and tools, made anew if the lock changed."""
     folder = WORK / "venv"
     python = folder / ("Scripts/python.exe" if WINDOWS else "bin/python")
     stamp = folder / ".made-of"
@@ -98,7 +98,7 @@ def environment() -> Path:
 
 
 def pack(python: Path) -> Path:
-    """The folder with the program, its Python and all libraries."""
+    """Pack the program, its Python and all libraries into a folder."""
     say("PyInstaller packs")
     if WINDOWS:
         from windows.resources import version_resource
@@ -139,7 +139,7 @@ def write_archive(folder: Path, name: str) -> Path:
 
 
 def draw_icons(python: Path, places: dict[int, Path]) -> None:
-    """The program's icon as pixels, by its size; the ending says in which form."""
+    """Save the program's icon in several sizes; the ending of a path says in which format."""
     for path in places.values():
         path.parent.mkdir(parents=True, exist_ok=True)
     draw = "import sys; from carpus.ui.kit.icons import program_icon_image\n"
@@ -149,7 +149,7 @@ def draw_icons(python: Path, places: dict[int, Path]) -> None:
 
 
 def write_deb(folder: Path, python: Path, number: str) -> Path:
-    """The Debian package around the folder."""
+    """Write the Debian package of the packed folder."""
     import debian
 
     root = WORK / "deb"
@@ -181,7 +181,7 @@ def write_deb(folder: Path, python: Path, number: str) -> Path:
 
 
 def write_extra(python: Path, number: str) -> Path:
-    """The second package: the libraries of the other cameras, as their makers' wheels lay them out."""
+    """Write the second package: the other cameras' libraries, as their makers' wheels lay them out."""
     import debian
 
     root = WORK / "extra"
@@ -199,7 +199,7 @@ def write_extra(python: Path, number: str) -> Path:
 
 
 def build_deb(root: Path, name: str, number: str, control: Callable[[str, int, str], str]) -> Path:
-    """A package of what was laid out below ``root``, which is removed."""
+    """Build a Debian package of the files below ``root``, and remove them."""
     import slim
 
     import debian

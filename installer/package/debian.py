@@ -51,7 +51,7 @@ def debian_version(version: str) -> str:
 
 
 def control(version: str, installed_bytes: int, architecture: str) -> str:
-    """The control file. ``installed_bytes`` of all files."""
+    """Return the control file; ``installed_bytes`` is the size of all files."""
     return _control("carpus", version, installed_bytes, architecture, ", ".join(NEEDS + ALSO)) + (
         "Description: Measures how a wrist and a hand move, for hand rehabilitation\n"
         " A depth camera looks down on a hand with blue paper discs on it. Carpus follows\n"
@@ -63,7 +63,7 @@ def control(version: str, installed_bytes: int, architecture: str) -> str:
 
 
 def extra_control(version: str, installed_bytes: int, architecture: str) -> str:
-    """That of the second package; its libraries fit the Python of one version of the first."""
+    """Return the control file of the second package, whose libraries fit one version of the first."""
     needs = f"carpus (= {debian_version(version)})"
     return _control(CAMERAS_EXTRA, version, installed_bytes, architecture, needs) + (
         "Description: RealSense and Orbbec cameras for Carpus\n"
@@ -109,6 +109,6 @@ def lay_out(root: Path, texts: Mapping[str, str], here: Path, resources: Path) -
 
 
 def metainfo(here: Path, version: str, date: str) -> str:
-    """The AppStream file of a version; ``date`` as ISO writes it."""
+    """Return the AppStream file of a version; ``date`` in ISO 8601."""
     text = (here / "linux" / "carpus.metainfo.xml.in").read_text(encoding="utf-8")
     return text.replace("@VERSION@", version).replace("@DATE@", date)

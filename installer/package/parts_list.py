@@ -22,7 +22,7 @@ COMMON = Path("/usr/share/common-licenses")
 
 
 def system_parts(folder: Path) -> list[BundledPart]:
-    """The Debian packages whose libraries were packed, found by the libraries' names; empty elsewhere."""
+    """Return the Debian packages whose libraries were packed, by the libraries' names; empty elsewhere."""
     if shutil.which("dpkg-query") is None:
         return []
     names = sorted(path.name for path in (folder / "parts").glob("lib*.so*") if not path.is_symlink())
@@ -58,7 +58,7 @@ def bill(version: str, parts: Iterable[BundledPart]) -> dict[str, Any]:
 
 
 def under(title: str, text: str) -> str:
-    """A text under its title."""
+    """Return a text under its title."""
     return f"{'=' * 80}\n{title}\n{'=' * 80}\n{text}"
 
 

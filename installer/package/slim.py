@@ -44,7 +44,7 @@ def wanted_symbols(library: Path) -> dict[str, str]:
 
 
 def offered_symbols(library: Path) -> dict[str, str]:
-    """Defined functions of a library with their versions."""
+    """Return the functions that a library defines, with their versions."""
     out = {}
     for line in _output("readelf", "--dyn-syms", "--wide", str(library)).splitlines():
         words = line.split()
@@ -119,8 +119,10 @@ def with_one_blas_less(parts: Path) -> None:
 
 
 def strip(parts: Path) -> None:
-    """Take debugging symbols out, except where it would spoil a library: the tools that put wheels together move the
-    pieces of a file about, and what strip makes of it then may not load."""
+    """Remove debugging symbols where that does not damage a library.
+
+    The tools that assemble wheels move the sections of a file; after strip such a library may not load.
+    """
     folders = ("python3*/lib-dynload", "scipy", "numpy", "yaml", "h5py")
     libraries = [path for folder in folders for path in parts.glob(f"{folder}/**/*.so")]
     for library in (*parts.glob("libpython*.so*"), *libraries):
@@ -149,8 +151,10 @@ def needed(library: Path) -> set[str]:
 
 
 def without_unreached(parts: Path) -> None:
-    """Take out the system's libraries that only what was left out had asked for. Those that the program loads by name
-    while it runs come with a wheel and lie in its folder."""
+    """Remove the system's libraries that only removed parts had needed.
+
+    Libraries that the program loads by name while it runs come with a wheel and lie in its folder.
+    """
     top = {path.name: path for path in parts.glob("lib*.so*")}
     roots = [path for path in parts.glob("*/**/*.so*") if not path.is_symlink()]
     waiting = {name for path in roots for name in needed(path)} | {name for name in top if name.startswith("libpython")}
@@ -166,7 +170,7 @@ def without_unreached(parts: Path) -> None:
 
 
 def with_each_once(parts: Path) -> None:
-    """The same library in two wheels' folders is kept once."""
+    """Keep a library once that lies in two wheels' folders."""
     seen: dict[bytes, Path] = {}
     for path in sorted(parts.glob("*.libs/*.so*")):
         first = seen.setdefault(path.read_bytes(), path)

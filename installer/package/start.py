@@ -9,8 +9,10 @@ from typing import Any
 
 
 class NoOpenGL(ModuleType):
-    """In place of Qt's OpenGL, 10 MB that pyqtgraph imports for curves drawn by it, which Carpus never asks for: its
-    classes derive from what they find here."""
+    """Stand-in for Qt's OpenGL modules.
+
+    pyqtgraph imports these 10 MB for OpenGL curves, which Carpus does not use; its classes derive from what is here.
+    """
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):

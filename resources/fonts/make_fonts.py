@@ -66,7 +66,7 @@ def _figures_tabular(font: TTFont) -> None:
 
 
 def _figures_equally_wide(font: TTFont) -> None:
-    """The display cut's tabular figures differ in width in this release: centre each on the widest."""
+    """Centre each tabular figure on the widest: their widths differ in the display cut of this release."""
     cmap, widths = font.getBestCmap(), font["hmtx"]
     names = [cmap[code] for code in range(ord("0"), ord("9") + 1)]
     widest = max(widths[name][0] for name in names)

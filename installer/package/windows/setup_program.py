@@ -19,7 +19,7 @@ LONGEST = 150
 
 
 def stand_in(folder: Path) -> Path:
-    """A payload in the form of the real one: both programs, parts, deep and non-Latin names."""
+    """Make a payload in the form of the real one: both programs, parts, deep and non-Latin names."""
     shutil.rmtree(folder, ignore_errors=True)
     deep = folder / "parts" / "carpus" / "Ordner für 手" / ("deep " * 8).strip()
     deep.mkdir(parents=True)
