@@ -43,7 +43,7 @@ def _add_known(found: dict[CellKey, Measure], key: CellKey, measure: Measure | N
 def _find_bent_joints(exercise: Exercise) -> list[str]:
     """Return the joints of a fist's fingers; of a hook fist those beyond the MCP."""
     is_hook = exercise.joint.startswith("PIP")
-    if not exercise.has_total_motion and not is_hook:
+    if not (exercise.has_total_motion and exercise.joint) and not is_hook:
         return []
     return [joint for finger in exercise.digits for joint in FINGER_JOINTS[finger][1 if is_hook else 0 :]]
 

@@ -60,6 +60,7 @@ def test_measured_values_are_of_the_day_and_count_hyperextension_above_zero() ->
         ("PIP3_FLEXION", "active"): 90.0,
         ("PIP3_EXTENSION", "active"): -20.0,
     }
-    for one in (replace(seen, is_simulated=True), replace(seen, is_excluded=True), make_results("FINGER_ABAD", *ends)):
+    uncounted = replace(seen, is_simulated=True), replace(seen, is_excluded=True)
+    for one in (*uncounted, *(make_results(exercise, *ends) for exercise in ("FINGER_ABAD", "FREE_HAND"))):
         assert find_measured_values([one], seen.side, day) == {}
     assert find_measured_values([seen], seen.side, day + timedelta(days=1)) == {}

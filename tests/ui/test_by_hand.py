@@ -216,6 +216,10 @@ def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
         ManualValue("PRWE", "", "", TODAY, (53.5,)),
         ManualValue("KAPANDJI", "", seen.side, TODAY, (7.0,)),
     ]
+    screen.show_record(ManualRecord("Linden 42", seen.side, (ManualValue("PRWE", "", "", TODAY, (40.0,)),), (), ""))
+    for text in ("4 4", ""):
+        answers.setText(text)
+        assert not screen.has_unsaved, "answers that are not complete keep the saved score"
     seen = replace(seen, when=NOW + timedelta(days=1), is_simulated=False)
     assert propose_kapandji([seen], seen.side, TODAY) is None, "of a day to come"
 

@@ -92,6 +92,7 @@ class MeasureRow(QObject):
         self.other_hand_text = Text(theme, "", 14, REGULAR, "text2")
         self.last_text = Text(theme, "", 14, REGULAR, "text2")
         self._carpus_measure: Measure | None = None
+        self._value_before = math.nan
 
     def add_to_grid(self, theme: Theme, grid: QGridLayout, grid_row: int) -> None:
         shown: list[tuple[int, int, QWidget]] = [(0, 1, self.name)]
@@ -121,17 +122,18 @@ class MeasureRow(QObject):
         self.widgets = [self.last_text, *(widget for _, _, widget in shown)]
 
     def _count_answers(self) -> None:
-        """Put the score of the answers typed into the field, once they are complete."""
+        """Put the score of the answers typed into the field once they are complete, until then the value of before."""
         facts, text = self._questionnaire, self.answers_field.text()
-        self.side_text.setText("")
-        if facts is None or not text.strip():
+        if facts is None:
             return
         answers = facts.parse_answers(text)
         score = math.nan if answers is None else facts.compute_score(answers)
-        self.fields[0][1].set_value(round(score, self.measure.decimals))
+        known = math.isfinite(score)
+        self.fields[0][1].set_value(round(score, self.measure.decimals) if known else self._value_before)
+        self.side_text.setText("")
         if answers is None:
             self.side_text.setText(self.tr("not a valid answer"))
-        elif not math.isfinite(score):
+        elif answers and not known:
             self.side_text.setText(self.tr("{count} of {all}").format(count=len(answers), all=facts.item_count))
 
     def keys(self, side: Side) -> list[MeasureKey]:
@@ -149,6 +151,7 @@ class MeasureRow(QObject):
         ]
         for field, number in zip(fields, shown, strict=True):
             field.set_value(number)
+        self._value_before = shown[0]
         last = [previous_value(values, key, day) for key in self.keys(side)]
         where = stored[0] or last[0]
         self.location_field.setText(where.location if where else "")
