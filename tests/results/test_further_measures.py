@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from datetime import date
 
 import numpy as np
 import pytest
 
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.phrase import phrase
+from carpus.core.records.values import Patient
 from carpus.core.results.measure import Measure, summarise_values
 from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.norms import (
@@ -29,6 +31,7 @@ from carpus.core.results.task_measures import (
     find_session_reaches,
 )
 from carpus.ui.kit.cells import cell_text
+from carpus.ui.words.identity import to_person
 from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import method_words
 from carpus.ui.words.task_measures import measure_name, short_task_summary, task_summary, task_table
@@ -251,6 +254,13 @@ def test_grip_norm_is_by_sex_and_falls_after_middle_age() -> None:
     means = [grip_norm_kg(Person("male", age))[0] for age in (42, 60, 75, 90)]
     assert means == sorted(means, reverse=True)
     assert [grip_norm_kg(one) for one in (None, Person("diverse", 40), Person("male", 91))] == [None] * 3
+
+
+def test_age_of_a_person_rises_on_the_birthday() -> None:
+    patient = Patient("Linden 42", "both", birth_day=date(1960, 3, 12), sex="female")
+    ages = [to_person(patient, day).age for day in (date(2026, 3, 11), date(2026, 3, 12), date(2026, 12, 1))]
+    assert ages == [65, 66, 66]
+    assert to_person(replace(patient, birth_day=None), date(2026, 3, 12)) is None
 
 
 def test_range_table_gives_the_share_of_the_other_hand() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from datetime import date, datetime, timedelta
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
@@ -24,6 +25,7 @@ from carpus.ui.kit.numbers import (
 )
 from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import Theme
+from carpus.ui.picture.photo import crop_to_markers
 from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.screen import PatientsScreen
 from carpus.ui.shell.name_display import NameDisplay
@@ -319,3 +321,14 @@ def test_patient_list_of_very_many_shows_the_first_and_finds_the_others(
     assert screen.list.patient_model.rowCount() == MAX_LISTED_PATIENTS + 1
     screen.search.setText(f"oak {MAX_LISTED_PATIENTS + 150}")
     assert [screen.list.patient_model.row(0).pseudonym] == [f"Oak {MAX_LISTED_PATIENTS + 150}"]
+
+
+def test_photo_is_cropped_to_its_markers_in_its_aspect_ratio() -> None:
+    picture = np.full((120, 160, 3), 128, np.uint8)
+    assert crop_to_markers(picture) is picture, "without markers all of it"
+    picture[60:70, 100:110] = picture[60:70, 130:140] = (20, 40, 160)
+    cropped = crop_to_markers(picture)
+    height, width, _ = cropped.shape
+    assert height < 120
+    assert width / height == pytest.approx(4 / 3, abs=0.05)
+    assert np.count_nonzero(cropped[..., 2] == 160) == 200, "all markers are in it"
