@@ -193,10 +193,7 @@ class PracticeSystemController(QObject):
         results = report.results
         ranges = [words for angle in range(3) if (words := neutral_zero_words(results, angle))]
         heading = f"{terms.exercise_name(results.exercise.id)}, {to_mid_sentence(terms.hand_name(results.side))}"
-        plain = str.maketrans(
-            {"\N{NON-BREAKING HYPHEN}": "-", "\N{GREATER-THAN OR EQUAL TO}": ">=", "\N{LESS-THAN OR EQUAL TO}": "<="}
-        )
-        findings = [heading, *(words.translate(plain) for words in ranges)]
+        findings = [heading, *ranges]
 
         library, writes_fhir = self._controller.context.library, self._folders.fhir
 

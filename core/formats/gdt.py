@@ -33,6 +33,11 @@ ENCODINGS = {"1": "iso646-de", "2": "cp437", "3": "cp1252"}
 """Python's encoding of each character set; without a field 9206 it is that of the IBM PC. Systems on Windows write its
 letters, such as the apostrophe of O’Neill, where the specification has ISO 8859-1."""
 _ISO646_DE = str.maketrans("[\\]{|}~@", "ÄÖÜäöüß§")
+_PLAIN_SIGNS = str.maketrans({
+    "\N{EN DASH}": "-", "\N{NON-BREAKING HYPHEN}": "-", "\N{MINUS SIGN}": "-",
+    "\N{GREATER-THAN OR EQUAL TO}": ">=", "\N{LESS-THAN OR EQUAL TO}": "<=",
+})  # fmt: skip
+"""Signs of Carpus's own words that no or not every character set has."""
 _FILE_NAME = re.compile(r"[^.].*\.(gdt|\d{3})", re.IGNORECASE)
 _LINE_OVERHEAD = 9
 _MAX_TEXT = 60
@@ -208,13 +213,14 @@ def format_result(
         ) if text),
         ("6200", day),
         ("6201", time),
-        *(("6220", part) for line in findings for part in _split_text(line)),
+        *(("6220", part) for line in findings for part in _split_text(line.translate(_PLAIN_SIGNS))),
     ]  # fmt: skip
     if report is not None:
         fields += [("6302", "000001"), ("6303", "PDF"), ("6304", "Carpus"), ("6305", str(report))]
     for test in tests:
         if math.isfinite(test.value):
-            fields += [(TEST, test.identifier), (TEST_NAME, test.name[:_MAX_TEXT]), (VALUE, f"{test.value:.1f}")]
+            name = test.name.translate(_PLAIN_SIGNS)[:_MAX_TEXT]
+            fields += [(TEST, test.identifier), (TEST_NAME, name), (VALUE, f"{test.value:.1f}")]
             fields += [(UNIT, test.unit), (TEST_DATE, day), (TEST_TIME, time)]
             fields += [(TEST_NOTE, f"{test.comparator} {test.value:.1f} {test.unit}")] if test.comparator else []
     lines = [

@@ -173,6 +173,14 @@ def test_result_in_each_character_set_keeps_umlauts(character_set: str) -> None:
     assert dict(parse_fields(record)[0])["3101"] == "Größe"
 
 
+@pytest.mark.parametrize("character_set", ["1", "2", "3"])
+def test_result_in_each_character_set_keeps_the_signs_of_a_range(character_set: str) -> None:
+    request, test = GdtRequest("1", character_set=character_set), GdtTest("ARC", "Flexion–extension", 60.0, "°")
+    fields = dict(parse_fields(format_result(request, WHEN, [test], findings=["≥40 – 0\N{NON-BREAKING HYPHEN}20"]))[0])
+
+    assert (fields["6220"], fields["8411"]) == (">=40 - 0-20", "Flexion-extension")
+
+
 def test_result_identifiers_are_short_and_each_its_own() -> None:
     rows = [
         summarise_values("range", subject, quantity, "deg", (1.0, 2.0))
