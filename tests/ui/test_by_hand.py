@@ -15,12 +15,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.measures.manual_measurements import ManualValue, Mode, current_values
+from carpus.core.measures.manual_measurements import ManualValue, Mode, current_values, find_manual_measure
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.log import read_log
 from carpus.core.records.values import Patient
 from carpus.core.results.manual_proposals import propose_kapandji
 from carpus.core.results.progress import compute_progress
+from carpus.ui.charts.manual_values import manual_value_scale
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.progress_page import build_progress_report
@@ -294,6 +295,14 @@ def test_total_of_a_finger_stands_for_its_joints_in_changes_and_words() -> None:
     assert day_words([one for one in values if one.day == TODAY]) == (
         "Ring finger, passive: MCP \N{MINUS SIGN}10/70, PIP \N{MINUS SIGN}10/70, DIP \N{MINUS SIGN}10/70, TPM 180°"
     )
+
+
+@pytest.mark.parametrize("values", [[-5.0], [-40.0], [-40.0, 10.0], [0.0, 30.0]])
+def test_manual_value_scale_of_deficits_has_few_ticks_each_its_own(values: list[float]) -> None:
+    scale = manual_value_scale(find_manual_measure("PIP2_EXTENSION"), values)
+
+    assert scale.low <= min(values) <= max(values) <= scale.high
+    assert len({text for _, text in scale.labels}) == len(scale.ticks) <= 7
 
 
 def test_manual_values_in_reports_and_tables_are_marked_as_manual(tmp_path: Path) -> None:

@@ -68,8 +68,9 @@ def manual_value_scale(measure: ManualMeasure, values: Sequence[float]) -> Scale
     """Return a scale from zero, or the lowest value, to the next round number above all values."""
     top = max([*values, 0.5 * measure.usual_range[1] if measure.kind == "score" else 0.0, 1e-6])
     steps = (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)
-    step = next((one for one in steps if top / one <= 4.0), 500.0)
-    low = step * math.floor(min([*values, 0.0]) / step)
+    bottom = min([*values, 0.0])
+    step = next((one for one in steps if (top - bottom) / one <= 4.0), 500.0)
+    low = step * math.floor(bottom / step)
     high = step * math.ceil(top / step + 1e-9)
     ticks = tuple(np.arange(low, high + step / 2, step).tolist())
     return Scale(low, high, ticks, tuple((tick, value_words(measure, tick)) for tick in ticks), bold_ends=False)
