@@ -3648,10 +3648,6 @@
         <translation>Zum Ändern eine Bezeichnung auf einen anderen Marker ziehen.</translation>
     </message>
     <message>
-        <source>Check that every label is on its marker, then press Enter. Click the markers requested above.</source>
-        <translation>Prüfen, ob jede Bezeichnung auf ihrem Marker liegt, dann Eingabe drücken. Die oben verlangten Marker anklicken.</translation>
-    </message>
-    <message>
         <source>Measure</source>
         <translation>Messen</translation>
     </message>
@@ -6400,6 +6396,10 @@ cm</translation>
     <message>
         <source>Reinstall OpenNI2.</source>
         <translation>Installieren Sie OpenNI2 neu.</translation>
+    </message>
+    <message>
+        <source>Check that every label is on its marker, then press Enter.</source>
+        <translation>Prüfen, ob jede Bezeichnung auf ihrem Marker liegt, dann Eingabe drücken.</translation>
     </message>
 </context>
 <context>

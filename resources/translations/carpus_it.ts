@@ -3648,10 +3648,6 @@
         <translation>Per cambiare un’etichetta, trascinarla su un altro marcatore.</translation>
     </message>
     <message>
-        <source>Check that every label is on its marker, then press Enter. Click the markers requested above.</source>
-        <translation>Controllare che ogni etichetta sia sul suo marcatore, poi premere Invio. Fare clic sui marcatori richiesti sopra.</translation>
-    </message>
-    <message>
         <source>Measure</source>
         <translation>Misura</translation>
     </message>
@@ -6400,6 +6396,10 @@ cm</translation>
     <message>
         <source>Reinstall OpenNI2.</source>
         <translation>Reinstallare OpenNI2.</translation>
+    </message>
+    <message>
+        <source>Check that every label is on its marker, then press Enter.</source>
+        <translation>Controllare che ogni etichetta sia sul suo marcatore, poi premere Invio.</translation>
     </message>
 </context>
 <context>

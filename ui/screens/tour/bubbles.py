@@ -77,7 +77,7 @@ def bubble_words(bubble: Bubble) -> str:
         "patient": tr("Choose a patient in the list, then start here. The practice patient is simulated."),
         "camera": tr("Choose the image source, then continue here."),
         "aim": tr("Take the image when the hand lies flat and every marker is visible."),
-        "click": tr("Check that every label is on its marker, then press Enter. Click the markers requested above."),
+        "click": tr("Check that every label is on its marker, then press Enter."),
         "check": tr("Every marker has its label and all checks are good. Start measuring here."),
         "record": tr("The joints are already tracked. The space bar starts the recording."),
         "stop": tr("Let the hand move a few times. Then press the space bar to stop and save."),
