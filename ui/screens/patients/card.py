@@ -237,4 +237,4 @@ class _ResultRow(QWidget):
 
     def _fit(self) -> None:
         needed = self._name.fontMetrics().horizontalAdvance(self._name.text()) + 4
-        self._name.setFixedWidth(max(self._theme.px(88), needed))
+        self._name.setFixedWidth(max(self._theme.px(72), needed))
