@@ -231,7 +231,7 @@ class WelcomeController(QObject):
         # check screen size and fonts
         name = self.tr("Screen")
         room = QGuiApplication.primaryScreen().availableGeometry()
-        found = self.tr("{width} × {height} for windows").format(width=room.width(), height=room.height())
+        found = self.tr("{width} × {height} usable").format(width=room.width(), height=room.height())
         small = room.width() < MIN_SIZE_PX[0] or room.height() < MIN_SIZE_PX[1]
         remedy = self.tr(
             "In the display settings, choose a higher resolution or a smaller scale: {width} × {height} or more."

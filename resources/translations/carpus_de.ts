@@ -105,7 +105,7 @@
     </message>
     <message>
         <source>Figure-of-eight (hand oedema)</source>
-        <translation>Achtertour (Handödem)</translation>
+        <translation>Achtertour-Messung (Handödem)</translation>
     </message>
     <message>
         <source>Volume of the hand</source>
@@ -981,7 +981,7 @@
     </message>
     <message>
         <source>within {size} mm</source>
-        <translation>bis {size} mm</translation>
+        <translation>auf {size} mm genau</translation>
     </message>
     <message>
         <source>moved</source>
@@ -1105,7 +1105,7 @@
     </message>
     <message>
         <source>Further</source>
-        <translation>Weiter</translation>
+        <translation>Noch weiter</translation>
     </message>
     <message>
         <source>A little further</source>
@@ -1193,7 +1193,7 @@
     </message>
     <message>
         <source>Wide</source>
-        <translation>Finger weit</translation>
+        <translation>Finger spreizen</translation>
     </message>
     <message>
         <source>Open your thumb wide</source>
@@ -1201,7 +1201,7 @@
     </message>
     <message>
         <source>Thumb wide</source>
-        <translation>Daumen weit</translation>
+        <translation>Daumen abspreizen</translation>
     </message>
     <message>
         <source>Take the cup, lift it a little, put it back</source>
@@ -1341,7 +1341,7 @@
     </message>
     <message>
         <source>should stay within {angle}</source>
-        <translation>soll innerhalb {angle} bleiben</translation>
+        <translation>soll innerhalb von {angle} bleiben</translation>
     </message>
     <message>
         <source>thumb ←</source>
@@ -1373,7 +1373,7 @@
     </message>
     <message>
         <source>From the fingers</source>
-        <translation>Von den Fingern</translation>
+        <translation>Von den Fingern aus</translation>
     </message>
     <message>
         <source>No sessions of this exercise yet.</source>
@@ -1757,7 +1757,7 @@
     </message>
     <message>
         <source>flexion {full}, deficit {missing}</source>
-        <translation>Flexion {full}, Defizit {missing}</translation>
+        <translation>Flexion {full}, Streckdefizit {missing}</translation>
     </message>
     <message>
         <source>TAM of all fingers</source>
@@ -2109,11 +2109,11 @@
     </message>
     <message>
         <source>Corrected on {day}, from {time}, by {who}.</source>
-        <translation>Korrigiert am {day}, ab {time}, von {who}.</translation>
+        <translation>Korrigiert am {day}, ab Aufnahmezeit {time}, von {who}.</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}.</source>
-        <translation>Korrigiert am {day}, ab {time}.</translation>
+        <translation>Korrigiert am {day}, ab Aufnahmezeit {time}.</translation>
     </message>
     <message>
         <source>{share} % of the time</source>
@@ -2165,7 +2165,7 @@
     </message>
     <message>
         <source>not asked</source>
-        <translation>nicht gefragt</translation>
+        <translation>nicht erfragt</translation>
     </message>
     <message>
         <source>{pain} at {time}</source>
@@ -2197,7 +2197,7 @@
     </message>
     <message>
         <source>Measured by this clinic: {exercise}</source>
-        <translation>Von dieser Einrichtung gemessen: {exercise}</translation>
+        <translation>Im eigenen Haus gemessen: {exercise}</translation>
     </message>
     <message>
         <source>SEM {size}</source>
@@ -2633,7 +2633,7 @@
     </message>
     <message>
         <source>Install the package {package}, which is next to the Carpus package.</source>
-        <translation>Installieren Sie das Paket {package}, das neben dem von Carpus liegt.</translation>
+        <translation>Installieren Sie das Paket {package}, das neben dem Paket von Carpus liegt.</translation>
     </message>
     <message>
         <source>Install the packages that contain these libraries.</source>
@@ -2701,7 +2701,7 @@
     </message>
     <message>
         <source>Plug the camera in again. If this persists, times and speeds of this camera are not reliable.</source>
-        <translation>Schließen Sie die Kamera neu an. Bleibt es so, sind Zeiten und Geschwindigkeiten dieser Kamera nicht verlässlich.</translation>
+        <translation>Schließen Sie die Kamera neu an. Bleibt der Fehler bestehen, sind Zeiten und Geschwindigkeiten dieser Kamera nicht verlässlich.</translation>
     </message>
     <message>
         <source>Plug the camera in.</source>
@@ -2781,7 +2781,7 @@
     </message>
     <message>
         <source>Plug it into a USB 3 port, with a USB 3 cable and without a hub.</source>
-        <translation>Schließen Sie sie an einen USB-3-Anschluss an, mit USB-3-Kabel und ohne Hub.</translation>
+        <translation>Schließen Sie die Kamera an einen USB-3-Anschluss an, mit USB-3-Kabel und ohne Hub.</translation>
     </message>
     <message>
         <source>Plug the camera in, preferably directly into the computer. {port}</source>
@@ -3877,11 +3877,11 @@
     </message>
     <message>
         <source>{count} frames are missing: close other programs</source>
-        <translation>{count} Bilder fehlen: Programme schließen</translation>
+        <translation>{count} Bilder fehlen: andere Programme schließen</translation>
     </message>
     <message>
         <source>The computer is busy; every frame is saved</source>
-        <translation>Der Computer ist ausgelastet; nichts fehlt</translation>
+        <translation>Der Computer ist ausgelastet; kein Bild fehlt</translation>
     </message>
     <message>
         <source>Values are {seconds} s behind</source>
@@ -3977,7 +3977,7 @@
     </message>
     <message>
         <source>{several} found for {wanted}: state which one applies</source>
-        <translation>für {wanted} gibt es {several}: geben Sie an, welches gilt</translation>
+        <translation>für {wanted} gibt es {several}: geben Sie an, was davon gilt</translation>
     </message>
     <message>
         <source>line {line}: “{cell}” is not a reading</source>
@@ -4229,7 +4229,7 @@
     </message>
     <message>
         <source>Ask your IT support to install it.</source>
-        <translation>Bitten Sie Ihre IT-Betreuung, es zu installieren.</translation>
+        <translation>Bitten Sie Ihre IT-Betreuung, das Paket zu installieren.</translation>
     </message>
     <message>
         <source>Ask your IT support to install the driver.</source>
@@ -4385,7 +4385,7 @@
     </message>
     <message>
         <source>No separate blue marker was found at a click: {subject}.</source>
-        <translation>An einer angeklickten Stelle wurde kein eigener blauer Marker gefunden: {subject}.</translation>
+        <translation>An einer angeklickten Stelle wurde kein einzelner blauer Marker gefunden: {subject}.</translation>
     </message>
     <message>
         <source>Nothing else was changed.</source>
@@ -4405,7 +4405,7 @@
     </message>
     <message>
         <source>Nothing was deleted: {subject} is a link to another place.</source>
-        <translation>Es wurde nichts gelöscht: {subject} ist eine Verknüpfung an einen anderen Ort.</translation>
+        <translation>Es wurde nichts gelöscht: {subject} ist eine Verknüpfung zu einem anderen Ort.</translation>
     </message>
     <message>
         <source>Patients</source>
@@ -4453,7 +4453,7 @@
     </message>
     <message>
         <source>Review it like any other session.</source>
-        <translation>Sehen Sie sie wie jede andere Sitzung durch.</translation>
+        <translation>Sehen Sie diese Sitzung wie jede andere durch.</translation>
     </message>
     <message>
         <source>Smoothing of this session failed: {subject} ({detail}).</source>
@@ -4717,7 +4717,7 @@
     </message>
     <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
-        <translation>Im neuen Ergebnis kaum sichtbar: {names}. Ihre Winkel fehlen dort.</translation>
+        <translation>Im neuen Ergebnis kaum sichtbar: {names}. Deren Winkel fehlen dort.</translation>
     </message>
     <message>
         <source>{count} of {common} frames differ by more than 2°. Largest difference at {time}: {angle}, {size}.</source>
@@ -4909,7 +4909,7 @@
     </message>
     <message>
         <source>Reinstall it and the library it names.</source>
-        <translation>Installieren Sie ihn und die genannte Bibliothek neu.</translation>
+        <translation>Installieren Sie den Treiber und die genannte Bibliothek neu.</translation>
     </message>
     <message>
         <source>Install the camera permissions named above and plug the camera in again.</source>
@@ -5041,7 +5041,7 @@
     </message>
     <message>
         <source>“carpus doctor” shows how to grant it.</source>
-        <translation>„carpus doctor“ zeigt, wie er erteilt wird.</translation>
+        <translation>„carpus doctor“ zeigt, wie der Zugriff erteilt wird.</translation>
     </message>
     <message>
         <source>“carpus doctor” shows what is missing and how to install it.</source>
@@ -5049,11 +5049,11 @@
     </message>
     <message>
         <source>{detail} in the session folder cannot be read and were ignored: {subject}.</source>
-        <translation>{detail} im Sitzungsordner können nicht gelesen werden und wurden ignoriert: {subject}.</translation>
+        <translation>Im Sitzungsordner nicht lesbar und daher ignoriert ({detail}): {subject}.</translation>
     </message>
     <message>
         <source>{name} is plugged in, but the driver does not see it</source>
-        <translation>{name} ist angeschlossen, aber der Treiber sieht sie nicht</translation>
+        <translation>{name} ist angeschlossen, aber der Treiber erkennt die Kamera nicht</translation>
     </message>
     <message>
         <source>Remove files that do not belong to Carpus, or choose another disk.</source>
@@ -5137,7 +5137,7 @@
     </message>
     <message>
         <source>revision {digest}</source>
-        <translation>Revision {digest}</translation>
+        <translation>Programmstand {digest}</translation>
     </message>
     <message>
         <source>In the middle of the nail.</source>
@@ -5177,7 +5177,7 @@
     </message>
     <message>
         <source>On the command line, set it with --camera.</source>
-        <translation>In der Befehlszeile wird sie mit --camera angegeben.</translation>
+        <translation>In der Befehlszeile wird die Kamera mit --camera angegeben.</translation>
     </message>
     <message>
         <source>This line must be 100 mm long. If it is not,</source>
@@ -5397,7 +5397,7 @@
     </message>
     <message>
         <source>Motion page</source>
-        <translation>Bewegungsseite</translation>
+        <translation>Seite mit Bewegungsdaten</translation>
     </message>
     <message>
         <source>Reliability of the values</source>
@@ -5565,7 +5565,7 @@
     </message>
     <message>
         <source>Position known to within 15° while occluded</source>
-        <translation>Bei Verdeckung bekannt auf 15° genau</translation>
+        <translation>Handstellung bei Verdeckung auf 15° genau bekannt</translation>
     </message>
     <message>
         <source>Position jump when visible again</source>
@@ -5749,7 +5749,7 @@
     </message>
     <message>
         <source>This clinic measured the MDC95 (measurement error) on {date} with {count} people. Where it was not measured, Carpus uses an expert default. The MDC applies to the same markers, side and set-up.</source>
-        <translation>Diese Einrichtung hat die MDC95 (Messfehler) am {date} mit {count} Personen gemessen. Wo sie nicht gemessen wurde, verwendet Carpus eine Expertenschätzung. Die MDC gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
+        <translation>Die MDC95 (Messfehler) wurde am {date} im eigenen Haus mit {count} Personen gemessen. Wo sie nicht gemessen wurde, verwendet Carpus eine Expertenschätzung. Die MDC gilt nur bei denselben Markern, derselben Seite und demselben Aufbau.</translation>
     </message>
     <message>
         <source>Until the clinic has measured its own MDC (measurement error), Carpus uses an expert default, not a published value. For a total arc, which has two ends, the MDC is √2 times as large. It applies to the same markers, side and set-up.</source>
@@ -5823,7 +5823,7 @@ cm</translation>
     </message>
     <message>
         <source>adults, ages not given; not for children or old age</source>
-        <translation>Erwachsene ohne Altersangabe; nicht für Kinder und alte Menschen</translation>
+        <translation>Erwachsene (Alter in der Quelle nicht angegeben); nicht für Kinder und ältere Menschen</translation>
     </message>
     <message>
         <source>men</source>
@@ -6015,7 +6015,7 @@ cm</translation>
     </message>
     <message>
         <source>{subject} does not state whether depth and colour are aligned. Carpus assumes that they are.</source>
-        <translation>In {subject} ist nicht angegeben, ob Tiefe und Farbe deckungsgleich sind. Carpus nimmt es an.</translation>
+        <translation>In {subject} ist nicht angegeben, ob Tiefe und Farbe deckungsgleich sind. Carpus geht davon aus, dass sie es sind.</translation>
     </message>
     <message>
         <source>The session is safe on this computer.</source>
@@ -6219,11 +6219,11 @@ cm</translation>
     </message>
     <message>
         <source>{difference} since first session</source>
-        <translation>{difference} als bei der ersten</translation>
+        <translation>{difference} seit erster Sitzung</translation>
     </message>
     <message>
         <source>Start Carpus from a desktop session. The commands for files work without a screen.</source>
-        <translation>Starten Sie Carpus auf einem Desktop. Die Befehle für Dateien funktionieren ohne Bildschirm.</translation>
+        <translation>Starten Sie Carpus auf einer grafischen Oberfläche. Die Befehle für Dateien funktionieren auch ohne Bildschirm.</translation>
     </message>
     <message>
         <source>hand is {json}, but right or left is expected</source>
@@ -6414,7 +6414,7 @@ cm</translation>
     </message>
     <message>
         <source>Next appointment: this day has passed</source>
-        <translation>Nächster Termin: Der Tag ist vorbei</translation>
+        <translation>Nächster Termin: Das Datum liegt in der Vergangenheit</translation>
     </message>
 </context>
 <context>
@@ -6485,7 +6485,7 @@ cm</translation>
     </message>
     <message>
         <source>Automatic backup</source>
-        <translation>Täglich</translation>
+        <translation>Automatisch</translation>
     </message>
 </context>
 <context>
@@ -6669,7 +6669,7 @@ cm</translation>
     </message>
     <message>
         <source>2  Show it to the camera</source>
-        <translation>2  Der Kamera zeigen</translation>
+        <translation>2  Tafel der Kamera zeigen</translation>
     </message>
     <message>
         <source>Calibration takes five minutes. It measures the lens, the depth error and the alignment of depth and colour. Do it once for each camera, and again if the camera was knocked or is out of tolerance.</source>
@@ -6883,7 +6883,7 @@ cm</translation>
     </message>
     <message>
         <source>Plug it directly into the computer.</source>
-        <translation>Schließen Sie sie direkt am Computer an.</translation>
+        <translation>Schließen Sie die Kamera direkt am Computer an.</translation>
     </message>
     <message>
         <source>Choose an image folder</source>
@@ -7655,7 +7655,7 @@ cm</translation>
     </message>
     <message>
         <source>No markers found. Check that they are on the hand, the hand is in view and the light is good.</source>
-        <translation>Keine Marker gefunden. Prüfen Sie, ob sie auf der Hand sind, die Hand im Bild und das Licht gut ist.</translation>
+        <translation>Keine Marker gefunden. Prüfen Sie, ob die Marker auf der Hand sind, ob die Hand im Bild ist und ob das Licht gut ist.</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
@@ -7974,7 +7974,7 @@ von oben</translation>
     </message>
     <message>
         <source>The recording plays from its first frame</source>
-        <translation>Die Aufnahme läuft ab dem ersten Bild</translation>
+        <translation>Die Aufnahme wird ab dem ersten Bild abgespielt</translation>
     </message>
     <message>
         <source>Waiting for the camera image</source>
@@ -8403,7 +8403,7 @@ von oben</translation>
     </message>
     <message>
         <source>Open it again with depth aligned to colour, then click the markers again.</source>
-        <translation>Öffnen Sie sie erneut mit deckungsgleicher Tiefe und Farbe, und klicken Sie die Marker dann neu an.</translation>
+        <translation>Öffnen Sie die Aufnahme erneut. Carpus richtet dabei die Tiefe an der Farbe aus. Klicken Sie danach die Marker neu an.</translation>
     </message>
     <message>
         <source>Leave this screen?</source>
@@ -8430,7 +8430,7 @@ von oben</translation>
     <name>MarkersScreen</name>
     <message>
         <source>Wrist cannot reach neutral…</source>
-        <translation>Handgelenk nicht neutral…</translation>
+        <translation>Ausgangsstellung eingeben…</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>
@@ -8544,7 +8544,7 @@ von oben</translation>
     </message>
     <message>
         <source>Review it now or later. It stays in the patient’s session list.</source>
-        <translation>Sehen Sie sie jetzt oder später an. Sie bleibt in der Sitzungsliste.</translation>
+        <translation>Sehen Sie die Sitzung jetzt oder später an. Sie bleibt in der Sitzungsliste.</translation>
     </message>
     <message>
         <source>Waiting for the camera … {seconds} s</source>
@@ -8613,7 +8613,7 @@ von oben</translation>
     <name>NoticeStrip</name>
     <message>
         <source>Later</source>
-        <translation>Nach unten</translation>
+        <translation>Später</translation>
     </message>
     <message>
         <source>Esc</source>
@@ -9012,7 +9012,7 @@ von oben</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Eingabe</translation>
+        <translation>Eingabetaste</translation>
     </message>
     <message>
         <source>start</source>
@@ -9522,7 +9522,7 @@ von oben</translation>
     </message>
     <message>
         <source>Records past their retention period</source>
-        <translation>Abgelaufene Aufbewahrung</translation>
+        <translation>Abgelaufene Aufbewahrungsfristen</translation>
     </message>
     <message>
         <source>completed later</source>
@@ -9623,7 +9623,7 @@ von oben</translation>
     </message>
     <message>
         <source>Past r&amp;etention period…</source>
-        <translation>Abgelau&amp;fene Aufbewahrung…</translation>
+        <translation>Abgelaufene &amp;Fristen…</translation>
     </message>
 </context>
 <context>
@@ -10083,7 +10083,7 @@ von oben</translation>
     </message>
     <message>
         <source>&amp;Move to another patient…</source>
-        <translation>Zu anderem &amp;Patienten…</translation>
+        <translation>Anderem &amp;Patienten zuordnen…</translation>
     </message>
     <message>
         <source>Change the &amp;exercise…</source>
@@ -10115,7 +10115,7 @@ von oben</translation>
     </message>
     <message>
         <source>Move</source>
-        <translation>Verschieben</translation>
+        <translation>Zuordnen</translation>
     </message>
     <message>
         <source>Repetitions and values are calculated again. The recording itself is not changed.</source>
@@ -10147,7 +10147,7 @@ von oben</translation>
     </message>
     <message>
         <source>Tick one more session to compare</source>
-        <translation>Noch eine ankreuzen</translation>
+        <translation>Noch eine Sitzung ankreuzen</translation>
     </message>
     <message>
         <source>Compare the 2 ticked sessions</source>
@@ -10340,7 +10340,7 @@ von oben</translation>
     </message>
     <message>
         <source>Streams angles, positions and events over Lab Streaming Layer (LSL). Any computer on the network can read them. Names and images are not included. Applies from the next set-up.</source>
-        <translation>Sendet Winkel, Positionen und Ereignisse über Lab Streaming Layer (LSL). Jeder Computer im Netz kann sie lesen. Namen und Bilder sind nicht enthalten. Gilt ab dem nächsten Aufbau.</translation>
+        <translation>Sendet Winkel, Positionen und Ereignisse über Lab Streaming Layer (LSL). Jeder Computer im Netz kann sie lesen. Namen und Bilder sind nicht enthalten. Gilt ab der nächsten Messung, die Sie einrichten.</translation>
     </message>
     <message>
         <source>Sessions and patient list. Private to your user account. Nothing leaves this computer.</source>
@@ -10384,7 +10384,7 @@ von oben</translation>
     </message>
     <message>
         <source>Report and clinic</source>
-        <translation>Bericht und Einrichtung</translation>
+        <translation>Bericht und Briefkopf</translation>
     </message>
     <message>
         <source>Safety</source>
@@ -10404,7 +10404,7 @@ von oben</translation>
     </message>
     <message>
         <source>A second screen or window shows the patient what to do. Open it while measuring. For each exercise, choose whether it speaks to a child or an adult.</source>
-        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt dem Patienten, was zu tun ist. Öffnen Sie es beim Messen. Ob es ein Kind oder Erwachsene anspricht, wählen Sie mit der Übung.</translation>
+        <translation>Ein zweiter Bildschirm oder ein eigenes Fenster zeigt dem Patienten, was zu tun ist. Öffnen Sie die Patientenansicht beim Messen. Bei jeder Übung wählen Sie, ob die Texte für Kinder oder Erwachsene sind.</translation>
     </message>
     <message>
         <source>As published: deviation first</source>
@@ -10416,7 +10416,7 @@ von oben</translation>
     </message>
     <message>
         <source>Shows path and axes, speeds, the motion page in reports, all export formats, angle order and streaming. Values do not change.</source>
-        <translation>Zeigt Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Exportformate, Winkelreihenfolge und Streaming. Werte ändern sich nicht.</translation>
+        <translation>Zeigt Bahn und Achsen, Geschwindigkeiten, die Seite mit Bewegungsdaten in Berichten, alle Exportformate, Winkelreihenfolge und Streaming. Werte ändern sich nicht.</translation>
     </message>
 </context>
 <context>
@@ -10641,7 +10641,7 @@ von oben</translation>
     </message>
     <message>
         <source>The clinic’s server does not respond. Until it does, patients and sessions cannot be shown or changed. You can still measure.</source>
-        <translation>Der Server der Einrichtung antwortet nicht. Bis dahin lassen sich Patienten und Sitzungen weder zeigen noch ändern. Messen ist weiter möglich.</translation>
+        <translation>Der Server der Einrichtung antwortet nicht. Bis er wieder antwortet, lassen sich Patienten und Sitzungen weder anzeigen noch ändern. Messen ist weiter möglich.</translation>
     </message>
 </context>
 <context>
@@ -10689,10 +10689,6 @@ von oben</translation>
         <translation>Bildschirm</translation>
     </message>
     <message>
-        <source>{width} × {height} for windows</source>
-        <translation>{width} × {height} für Fenster</translation>
-    </message>
-    <message>
         <source>Install Carpus again: part of it is missing or damaged.</source>
         <translation>Installieren Sie Carpus neu: Ein Teil fehlt oder ist beschädigt.</translation>
     </message>
@@ -10727,6 +10723,10 @@ von oben</translation>
     <message>
         <source>the fonts of Carpus cannot be loaded</source>
         <translation>die Schriften von Carpus lassen sich nicht laden</translation>
+    </message>
+    <message>
+        <source>{width} × {height} usable</source>
+        <translation>{width} × {height} nutzbar</translation>
     </message>
 </context>
 <context>

@@ -10689,10 +10689,6 @@ dall’alto</translation>
         <translation>Schermo</translation>
     </message>
     <message>
-        <source>{width} × {height} for windows</source>
-        <translation>{width} × {height} per le finestre</translation>
-    </message>
-    <message>
         <source>Install Carpus again: part of it is missing or damaged.</source>
         <translation>Installare di nuovo Carpus: una parte manca o è danneggiata.</translation>
     </message>
@@ -10727,6 +10723,10 @@ dall’alto</translation>
     <message>
         <source>the fonts of Carpus cannot be loaded</source>
         <translation>i caratteri di Carpus non si possono caricare</translation>
+    </message>
+    <message>
+        <source>{width} × {height} usable</source>
+        <translation>{width} × {height} utilizzabili</translation>
     </message>
 </context>
 <context>

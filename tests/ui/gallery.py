@@ -155,7 +155,7 @@ CHECKS = (
     Finding("Data folder", "good", "/home/clinic/.local/share/carpus, made at the first recording"),
     Finding("Disk", "good", "212.4 GB free, about 1931 minutes with video"),
     Finding("Fonts", "good", "6 faces"),
-    Finding("Screen", "good", "1920 × 1053 for windows"),
+    Finding("Screen", "good", "1920 × 1053 usable"),
 )  # fmt: skip
 ScreenT = TypeVar("ScreenT", bound=QWidget)
 DialogT = TypeVar("DialogT", bound=Dialog)

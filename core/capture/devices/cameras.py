@@ -55,7 +55,7 @@ def check_package(
         if loads_library and is_needed:
             call_in_child(load)
     except (DriverMissing, ChildDiedError) as cause:
-        trouble = cause.detail if isinstance(cause, DriverMissing) else "it ends its process"
+        trouble = cause.detail if isinstance(cause, DriverMissing) else phrase("process ended")
         words = phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble)
         return Finding(name, "bad", words, phrase("Reinstall it and the library it names."))
     return Finding(name, "good", found)
