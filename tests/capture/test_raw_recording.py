@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 import struct
 import subprocess
 import sys
+import time
 import zlib
 from pathlib import Path
 
@@ -13,7 +15,7 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.capture.files.raw import RawRecording, RawWriter, _pack_record, is_raw_recording
+from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _pack_record, is_raw_recording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import D435
@@ -201,6 +203,34 @@ def test_raw_recording_duplicate_frame_is_notified(tmp_path: Path) -> None:
     _, back, notices = read_back(path, [*parts[:5], parts[4], *parts[5:]])
     assert [frame.dropped_before for frame in back] == [frame.dropped_before for frame in frames(6)]
     assert [fault.detail for fault in notices] == ["1 of 6 frames"]
+
+
+@pytest.mark.parametrize(
+    ("time_s", "dropped", "number"),
+    [(math.nan, 0, 2), (math.inf, 0, 2), (3.32, MAX_FRAMES + 1, 2), (3.32, 2**32 - 1, 2), (3.32, 0, MAX_FRAMES)],
+)
+def test_raw_recording_frame_with_impossible_value_is_skipped(
+    tmp_path: Path, time_s: float, dropped: int, number: int
+) -> None:
+    path = write(tmp_path / "take.carpusraw", 6)
+    parts = records(path.read_bytes())
+    size = struct.unpack_from("<I", parts[4], COLOR_SIZE)[0]
+    altered = _pack_record(b"FRAM", time_s, dropped, number, parts[4][32 : 32 + size], parts[4][32 + size :])
+    _, back, notices = read_back(path, [*parts[:4], altered, *parts[5:]])
+    assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
+    assert [fault.detail for fault in notices] == ["1 of 6 frames"]
+
+
+def test_raw_recording_search_time_is_linear_in_size(tmp_path: Path) -> None:
+    """Every 32 bytes a record with a wrong checksum that would reach to the end of the file."""
+    path = write(tmp_path / "take.carpusraw", 2)
+    parts = records(path.read_bytes())
+    count = 20_000
+    false = [struct.pack("<4sIdIIII", b"FRAM", 1, 9.0, 0, 7, 32 * (count - at - 1), 0) for at in range(count)]
+    start_s = time.process_time()
+    recording, back, _ = read_back(path, [*parts[:3], *false])
+    assert (recording.is_complete, len(back)) == (False, 1)
+    assert time.process_time() - start_s < 1.0  # 0.05 s; each checksum to the end would be 6.4 GB
 
 
 def test_raw_recording_data_after_end_are_notified(tmp_path: Path) -> None:

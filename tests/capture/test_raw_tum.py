@@ -112,3 +112,23 @@ def test_tum_writer_existing_folder_is_kept(tmp_path: Path) -> None:
     writer.discard()
     writer.close()
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["file", "take"]
+
+
+def test_tum_writer_full_disk_keeps_complete_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "take"
+    writer = TumWriter(path, INFO)
+    writer.append_frame(frames()[0])
+    before = (path / "rgb.txt").read_bytes()
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    monkeypatch.setattr("carpus.core.capture.files.tum.encode_color", lambda *_, **__: b"picture")
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, limits[1]))
+    try:
+        with pytest.raises(DiskFull):
+            writer.append_frame(frames()[2])
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert (path / "rgb.txt").read_bytes() == before
+    assert len(list((path / "rgb").iterdir())) == 1
+    writer.append_frame(frames()[3])  # there is room again
+    writer.close()
+    assert (path / "rgb.txt").read_bytes() == before + b"10.100000 rgb/10.100000.png\n"

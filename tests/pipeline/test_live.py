@@ -12,6 +12,8 @@ import pytest
 
 from carpus.core.model.errors import CameraLost, CameraReturned, DiskTooSlow, FrameDamaged, OutputExists
 from carpus.core.model.types import Frame, TrackedFrame
+from carpus.core.pipeline import backlog
+from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING, compute_capacity
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
 from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
@@ -19,6 +21,7 @@ from tests.pipeline.live_fakes import (
     ControlledSource,
     FakeSession,
     Gate,
+    frame,
     make_gated_tracker,
     make_tracked_frame,
     wait_until,
@@ -480,3 +483,88 @@ def test_live_session_stopped_file_ends_early() -> None:
         stored = [row.index for row in sink.rows]
         assert stored == list(range(len(stored)))
         assert live._capture_thread.is_alive()
+
+
+def test_live_session_tracks_from_next_frame() -> None:
+    source = ControlledSource()
+    with LiveSession(source) as live:
+        deliver(live, source, 5)
+        live.start_tracking(make_tracked_frame)
+        deliver_tracked(live, source, 6)
+        view = live.current_view()
+        assert view.frame.index == view.tracked.index == 10
+        assert view.captured_at_s <= time.monotonic()
+        assert [row.index for row in live.frames_since(-1)] == [5, 6, 7, 8, 9, 10]
+        assert [row.index for row in live.frames_since(8)] == [9, 10]
+        live.end_tracking()
+        deliver(live, source, 3)
+        assert live.current_frame().index == 13
+        live.start_tracking(make_tracked_frame)
+        assert live.frames_since(-1) == []
+        assert live.current_view() is None
+        deliver_tracked(live, source, 1)
+        assert [row.index for row in live.frames_since(-1)] == [14]
+
+
+def test_live_session_stop_waits_for_slow_tracker() -> None:
+    """A camera twice as fast as the tracker, for seconds: every frame is recorded, in order, at its own time."""
+    source, gate, sink = ControlledSource(), Gate(), FakeSession(OUT)
+    turns = threading.Semaphore(0)
+
+    def half_as_fast(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        assert turns.acquire(timeout=60.0)
+        return make_tracked_frame(picture)
+
+    with LiveSession(source) as live:
+        live.start_tracking(half_as_fast)
+        live.start_recording(lambda: sink)
+        gate.open()
+        for second in range(1, 5):
+            deliver(live, source, 30)
+            turns.release(15)
+            wait_until(lambda second=second: live.counters().tracked == 15 * second)
+        assert live.counters().frames_waiting in (59, 60)
+        assert math.isfinite(live.counters().tracking_lag_s)
+        ended: list[Path] = []
+        stopper = threading.Thread(target=lambda: ended.append(live.stop_recording()))
+        stopper.start()
+        turns.release(20)
+        wait_until(lambda: live.counters().tracked == 80)
+        deliver(live, source, 5)  # after the stop: neither recorded nor tracked meanwhile
+        assert live.is_recording
+        assert not ended
+        turns.release(200)
+        stopper.join()
+        assert live.counters().dropped == 0
+        deliver_tracked(live, source, 1)
+    assert ended == [OUT]
+    assert [row.index for row in sink.rows] == list(range(120))
+    assert [row.timestamp_s for row in sink.rows] == [100.0 + index / 30.0 for index in range(120)]
+    assert not any(row.dropped_before for row in sink.rows)
+
+
+def test_backlog_stale_frames_are_skipped() -> None:
+    """The disk is full while the tracker is behind: the end does not wait, and the preview is current again."""
+    source, gate = ControlledSource(), Gate()
+
+    with LiveSession(source) as live:
+        live.start_tracking(make_gated_tracker(gate, since=1))
+        live.start_recording(lambda: FakeSession(OUT, fault_at=0))
+        deliver(live, source, 200)
+        wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
+        with pytest.raises(OSError, match="No space"):
+            live.stop_recording()
+        assert live.counters().frames_waiting > 0, "the end does not wait for the tracker"
+        gate.open()
+        wait_until(lambda: live.current_view() is not None and live.current_view().frame.index == 199)
+        assert live.counters().tracked == 2 + MAX_PREVIEW_WAITING
+
+
+@pytest.mark.parametrize(("free_frames", "capacity"), [(50, 25), (3, MAX_PREVIEW_WAITING), (1000, 100)])
+def test_compute_capacity_little_memory_has_less(
+    monkeypatch: pytest.MonkeyPatch, free_frames: int, capacity: int
+) -> None:
+    one = frame(0)
+    monkeypatch.setattr(backlog, "read_free_memory_bytes", lambda: free_frames * one.color_rgb.nbytes)
+    assert compute_capacity(one, 100) == capacity

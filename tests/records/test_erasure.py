@@ -448,3 +448,20 @@ def test_erase_keeps_addresses_containing_numeric_name(house: House) -> None:
         erase_patient(house, house.patients.add(Patient(pseudonym, "right", name="Li")))
         assert set(clinic_records.read_recipients(house.store)) == set(kept), pseudonym
         assert house.patients.diagnoses() == ["Flexor tendon, zone 2"]
+
+
+def test_erase_session_deletes_files_and_rows_of_it_alone(folder: Path, house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    first, second = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=7))
+    path = house.index.get(second).path
+    kept = set(path.parent.glob(path.stem + ".*"))
+    plan = erasure.plan_session(house.store, first)
+    assert (plan.recording_count, len(plan.files), plan.pseudonym) == (1, 3, "Linden 42")
+    assert plan.size_bytes == sum(path.stat().st_size for path in plan.files)
+    assert erasure.erase(house.store, plan, house.log) == 3
+    assert [entry.session_id for entry in house.index.patient_sessions(linden)] == [second]
+    assert set(path.parent.iterdir()) == kept
+    assert deeds(house) == ["erase_begun", "erased"]
+    assert traces(folder, first) == []
+    assert house.patients.get(linden).session_count == 1
+    assert house.files.scan().session_count == 0
