@@ -204,3 +204,10 @@ def test_frame_assembler_counts_missing_numbers() -> None:
     assembler = FrameAssembler(StreamLayout((6, 4), None), 1e6, 4)
     frames = assembler.add_color(0, 1, color_of(1)) + assembler.add_color(PERIOD_US, 4, color_of(2))
     assert frames[1].dropped_before == 2
+
+
+def test_frame_assembler_images_are_copies() -> None:
+    view = color_of(3)
+    (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add_color(0, 1, view)
+    view[:] = 0
+    assert (frame.color_rgb == 3).all()

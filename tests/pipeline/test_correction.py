@@ -24,6 +24,7 @@ from carpus.core.pipeline.correction import (
     correct_in_process,
     find_lost_corrections,
     load_task,
+    with_added_detections,
 )
 from carpus.core.pipeline.track import (
     NeutralNoise,
@@ -36,6 +37,7 @@ from carpus.core.records.corrections import compare_results
 from carpus.core.session.label_checks import (
     CORRECTED,
     Correction,
+    predict_marker_px,
     read_corrections,
     summarize_corrections,
 )
@@ -266,3 +268,20 @@ def test_correction_of_unknown_frame_or_marker_raises(hand: Path, tmp_path: Path
     with pytest.raises(MarkersNotCorrectable):
         run_correction(hand, tmp_path / "new.h5", replace(Correction(WRONG_FROM, {"DIP3": None}), **wrong))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_correction_missing_marker_is_added_without_depth() -> None:
+    found = blobs(swing(1, 0.0, 1.0)(0.0), hidden=[MCP3])
+    place = CAMERA.project(discs_cam_m(swing(1, 0.0, 1.0)(0.0)))[MCP3]
+    more = with_added_detections(found, np.array([place, found.pixel[0] + 1.0]))
+    assert len(more) == len(found) + 1
+    assert more.pixel[-1] == pytest.approx(place)
+    assert np.isnan(more.depth_m[-1])
+
+
+def test_predict_marker_px_uses_other_markers(stored: Stored) -> None:
+    session = read_session(stored.path)
+    places = session.markers.measured_px[WRONG_FROM]
+    expected = predict_marker_px(session, WRONG_FROM, places, MCP3)
+    assert expected == pytest.approx(stored.disc_px, abs=4.0)
+    assert np.linalg.norm(places[MCP3] - expected) > 40.0

@@ -60,3 +60,24 @@ def test_hand_crop_depth_is_lossless_and_smaller(tmp_path: Path) -> None:
     whole = len(encode_color(frame.color_rgb)) + len(encode_depth(frame.depth_raw))  # type: ignore[arg-type]
     assert writer.path.stat().st_size < 0.6 * whole
     assert 0.6 * whole > BYTES_PER_FRAME
+
+
+def test_hand_crop_stale_region_keeps_whole_image() -> None:
+    hand = HandRegions(CAMERA, WRIST6)
+    hand.update(tracked())
+    assert hand.find_region(0.1) is not None
+    assert hand.find_region(1.0) is None
+
+
+def test_hand_region_contains_markers_and_fingers() -> None:
+    frame = tracked()
+    area = compute_hand_region(frame, CAMERA, WRIST6)
+    assert area is not None
+    discs = frame.marker_measured_px
+    span = float(np.ptp(discs, axis=0).max())
+    for disc in discs:
+        assert area.left < disc[0] < area.right
+        assert area.top < disc[1] < area.bottom
+    assert discs[:, 1].min() - area.top >= min(1.4 * span, discs[:, 1].min()) - 1.0
+    assert area.left >= 0
+    assert area.bottom <= CAMERA.height_px

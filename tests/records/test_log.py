@@ -8,10 +8,11 @@ import sqlite3
 from pathlib import Path
 
 import pytest
-from sqlalchemy import delete, insert
+from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
 from carpus.core.model.errors import OutputNotWritable
+from carpus.core.records.changes import fingerprint
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import AuditLogWriter, read_log
 from carpus.core.records.schema import AUDIT_LOG
@@ -129,3 +130,21 @@ def test_read_log_skips_and_reports_damaged_entry(tmp_path: Path, command: Comma
         house.log.write_entry("locked", "program")
     said = command("log", "--data-folder", tmp_path)
     assert (said.code, "     2  " in said.out, "left out" in said.err) == (0, True, True)
+
+
+def test_log_entry_cannot_be_changed_or_deleted(tmp_path: Path) -> None:
+    with open_store(tmp_path) as house:
+        house.log.get_initials = lambda: "AB"
+        house.log.write_entry("opened", "session", "0" * 32)
+        house.log.write_entry("erased", "patient", "1" * 32, files=3)
+        before = read_log(house.store)
+        mine = {"id": house.store.rows(select(AUDIT_LOG.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
+        again = insert(AUDIT_LOG).prefix_with("OR REPLACE").values(mine)
+        for change in (update(AUDIT_LOG).values(who="XY"), delete(AUDIT_LOG), again):
+            with pytest.raises(DatabaseError, match="only added to"):
+                house.store.execute_local(change)
+        assert read_log(house.store) == before
+        assert [(one.number, one.initials, one.action, dict(one.facts)) for one in before] == [
+            (1, "AB", "opened", {}), (2, "AB", "erased", {"files": 3}),
+        ]  # fmt: skip
+        assert before[0].subject == fingerprint("0" * 32)

@@ -433,3 +433,16 @@ def test_therapists_of_two_computers_are_kept(tmp_path: Path) -> None:
         listed = [replace(anna, name="Anna B"), maria]
         assert clinic_records.read_therapists(other.store) == listed
         assert [clinic_records.therapist_words(one.store, one_) for one_ in ("AB", "XX")] == ["Anna B (AB)", "XX"]
+
+
+def test_patient_search_finds_every_word(tmp_path: Path) -> None:
+    with open_store(tmp_path) as house:
+        house.patients.add(LINDEN)
+        house.patients.add(HERON)
+        linden, heron = {"Linden 42"}, {"Heron 17"}
+        for search, found in {
+            "": linden | heron, "lind": linden, "42 linden": linden, "MUSTER": linden, "tendon": linden, "17": heron,
+            "4711": linden, "1981-03-12 erika": linden,
+            "heron 42": set(), "%": set(),
+        }.items():  # fmt: skip
+            assert set(house.names(search)) == found, search
