@@ -52,7 +52,7 @@ def read_manifest(path: Path, output: Path) -> Manifest:
     table = read_table(path, MANIFEST_COLUMNS)
     known = [name for name in table.names if name.lower() in MANIFEST_COLUMNS]
     columns = tuple(name for name in table.names if name not in known)
-    problems = [f"the column “{name}” is one of the results; call it otherwise" for name in columns
+    problems = [f"the column “{name}” is one of the results; give it another name" for name in columns
                 if name in MEASURES_HEADER]  # fmt: skip
     if "recording" not in map(str.lower, known):
         return Manifest((), columns, ("there is no column “recording”",))
@@ -63,7 +63,7 @@ def read_manifest(path: Path, output: Path) -> Manifest:
         recording = path.parent / cells["recording"]
         label = cells.get("label") or recording.stem
         if label.casefold() in inputs:  # some disks take both for one file
-            found.append(f"line {line}: “{label}” is there twice; give each a label of its own")
+            found.append(f"line {line}: “{label}” occurs twice; give each row its own label")
         if found:
             problems += found
             continue

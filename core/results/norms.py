@@ -74,8 +74,8 @@ _WRIST_DEG: Mapping[str, tuple[float, float]] = {
 _MOVEMENTS = ("flexion", "extension", "radial", "ulnar", "pronation", "supination")
 _WRIST_BY_AGE: tuple[tuple[str, int, int, Phrase, Phrase, Phrase, tuple[float, ...]], ...] = (
     (
-        "male", 18, 54, phrase("Boone and Azen 1979, 109 men (active, goniometer)"), phrase("up to 54 years"),
-        phrase("men"),
+        "male", 18, 54, phrase("Boone and Azen 1979, 109 males from 18 months on (active, goniometer)"),
+        phrase("up to 54 years"), phrase("men"),
         (76.0, 75.0, 22.0, 36.0, 76.0, 82.0),
     ),
     (

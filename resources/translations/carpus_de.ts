@@ -5810,10 +5810,6 @@ cm</translation>
         <translation>65 bis 85 Jahre</translation>
     </message>
     <message>
-        <source>Boone and Azen 1979, 109 men (active, goniometer)</source>
-        <translation>Boone und Azen 1979, 109 Männer (aktiv, Goniometer)</translation>
-    </message>
-    <message>
         <source>Reference: {source}; {ages}, {sexes}.</source>
         <translation>Referenz: {source}; {ages}, {sexes}.</translation>
     </message>
@@ -6400,6 +6396,10 @@ cm</translation>
     <message>
         <source>Check that every label is on its marker, then press Enter.</source>
         <translation>Prüfen, ob jede Bezeichnung auf ihrem Marker liegt, dann Eingabe drücken.</translation>
+    </message>
+    <message>
+        <source>Boone and Azen 1979, 109 males from 18 months on (active, goniometer)</source>
+        <translation>Boone und Azen 1979, 109 männliche Personen ab 18 Monaten (aktiv, Goniometer)</translation>
     </message>
 </context>
 <context>

@@ -5810,10 +5810,6 @@ cm</translation>
         <translation>da 65 a 85 anni</translation>
     </message>
     <message>
-        <source>Boone and Azen 1979, 109 men (active, goniometer)</source>
-        <translation>Boone e Azen 1979, 109 uomini (attivo, goniometro)</translation>
-    </message>
-    <message>
         <source>Reference: {source}; {ages}, {sexes}.</source>
         <translation>Riferimento: {source}; {ages}, {sexes}.</translation>
     </message>
@@ -6400,6 +6396,10 @@ cm</translation>
     <message>
         <source>Check that every label is on its marker, then press Enter.</source>
         <translation>Controllare che ogni etichetta sia sul suo marcatore, poi premere Invio.</translation>
+    </message>
+    <message>
+        <source>Boone and Azen 1979, 109 males from 18 months on (active, goniometer)</source>
+        <translation>Boone e Azen 1979, 109 maschi dai 18 mesi in su (attivo, goniometro)</translation>
     </message>
 </context>
 <context>

@@ -47,7 +47,7 @@ def test_manifest_faults_are_told_together_and_nothing_is_tracked(
         "line 2: recording not found",
         "line 3: hand is “left”, and the clicks are of the right one",
         "line 3: Unknown exercise “WRIST_FF”; did you mean “WRIST_FE”",
-        "line 5: “C” is there twice",
+        "line 5: “C” occurs twice",
         "line 6: the label “../d” is not the name of a file",
         "6 faults in the list; nothing was tracked",
     ):

@@ -105,3 +105,21 @@ def test_fingers_without_measurement_have_no_nis() -> None:
     frames, _ = track_frames({40: everything, 41: everything}, 44)
     assert [frame.status for frame in frames[40:42]] == [TrackStatus.PREDICTED] * 2
     assert [np.isfinite(frame.nis) for frame in frames[38:]] == [True, True, False, False, True, True]
+
+
+def test_fingers_labelled_marker_restarts_its_digit_alone() -> None:
+    """A person names a marker of the index finger: its joints are open again, the other digits go on."""
+    seen, marker = sequence(), HAND21.markers.index("PIP2")
+    times_s, row = seen.truth.timestamp_s, 40
+    sd_rad = []
+    for is_labelled in (False, True):
+        tracker = build_tracker(seen)
+        for earlier in range(row):
+            tracker.step(earlier, float(times_s[earlier]), seen.detections[earlier])
+        if is_labelled:
+            tracker.labels.add(marker, seen.detections[row].pixel[seen.marker[row] == marker][0])
+        sd_rad.append(tracker.step(row, float(times_s[row]), seen.detections[row]).kinematics.joint_angles_sd_rad)
+    wider = sd_rad[1] / sd_rad[0] > 1.05
+    is_index = np.array(["2_" in name for name in HAND21.joint_names()])
+    assert wider[is_index].any()
+    assert not wider[~is_index].any()
