@@ -276,7 +276,9 @@ def _update_names(values: Values, path: Path, where: str = "") -> Values:
         if place in OBSOLETE:
             logger.info("The setting %s in %s is not used any more", place, path)
         elif not isinstance(value, Mapping):
-            kept[FORMER_NAMES.get(place, name)] = value
+            present = FORMER_NAMES.get(place, name)
+            if present == name or present not in values:  # the present name counts if both are there
+                kept[present] = value
         elif (inner := _update_names(value, path, f"{place}.")) or not value:
             kept[name] = inner
     return kept
@@ -340,7 +342,7 @@ def _format_value(value: object) -> str:
 
 def _parse_toml(name: str, data: bytes) -> Values:
     try:
-        return tomllib.loads(data.decode("utf-8"))
+        return tomllib.loads(data.decode("utf-8-sig"))  # editors on Windows put a mark before it
     except RecursionError as cause:
         raise SettingsInvalid(name, phrase("not a valid TOML file: too many nested tables")) from cause
     except ValueError as cause:  # TOML's own faults, text that is none, numbers without end

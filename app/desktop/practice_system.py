@@ -201,13 +201,14 @@ class PracticeSystemController(QObject):
             target = folder / name
             if target.exists():  # sent before, and this report may say something else
                 target = target.with_stem(f"{target.stem}_{datetime.now():%H%M%S}")
-            _share_file(save_pdf(target, content))
-            record = gdt.format_result(request, report.results.when, tests, findings=findings, report=target)
-            _share_file(gdt.write_result(folder, request, record))
             if writes_fhir:
                 item = ExportItem(library.session(results.session_id), results, target.stem, {})
                 bundle = fhir.build_bundle(item, content, number)
                 _share_file(write_new_json(target.with_suffix(".fhir.json"), bundle))
+            _share_file(save_pdf(target, content))
+            # last: the practice system takes it as soon as it is there, and sent twice it would be taken twice
+            record = gdt.format_result(request, report.results.when, tests, findings=findings, report=target)
+            _share_file(gdt.write_result(folder, request, record))
             return str(target)
 
         def show_failure(fault: Exception) -> None:

@@ -201,6 +201,11 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     assert load_settings(tmp_path) == dataclasses.replace(found, lock=LockSettings(5))
 
 
+def test_settings_present_name_counts_beside_former_one_and_byte_order_mark_is_skipped(tmp_path: Path) -> None:
+    write_settings(tmp_path, "\ufeff[live]\nmax_waiting_rows = 70\nrows_waiting = 60\n")
+    assert load_settings(tmp_path).live.max_waiting_rows == 70
+
+
 def test_settings_from_json_former_names_give_the_same_settings() -> None:
     """A session of 0.2.0 is tracked again with what it was tracked with."""
     stored = dataclasses.asdict(TrackSettings(detection=DetectionSettings(max_blobs=7)))

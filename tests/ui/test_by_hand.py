@@ -225,6 +225,20 @@ def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
     assert propose_kapandji([seen], seen.side, TODAY) is None, "of a day to come"
 
 
+def test_stored_values_of_more_digits_than_shown_are_no_change(screen: ManualMeasurementsScreen) -> None:
+    stored = (
+        ManualValue("FLEXION", "active", "right", TODAY, (12.34567,)),
+        ManualValue("PIP2_FLEXION", "active", "right", TODAY, (100.0 / 3.0,)),
+        ManualValue("KAPANDJI", "", "right", TODAY, (4.5,)),
+    )
+    screen.show_record(ManualRecord("Linden 42", "right", stored, (), ""))
+    assert screen.list_unsaved() == []
+    choice = screen.form.rows["KAPANDJI"].fields[0][1]
+    assert choice.value() == 4.5, "a score that was typed before there was a choice"
+    choice.set_value(7.0)
+    assert [one.trials for one in screen.list_unsaved()] == [(7.0,)]
+
+
 @pytest.fixture
 def library(tmp_path: Path) -> Iterator[DataFolder]:
     opened = DataFolder(tmp_path / "data")
@@ -257,7 +271,12 @@ def test_manual_form_saved_values_are_stored_and_logged(
     assert (kept.value, kept.rater, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
     typed(screen, "FLEXION", "71")
     screen.save_button.click()
-    qtbot.waitUntil(lambda: len(library.manual_measurements(patient)) == 2 and not background.is_busy)
+    screen.save_button.click()
+    typed(screen, "GRIP", "30")
+    qtbot.waitUntil(lambda: not background.is_busy)
+    assert len(library.manual_measurements(patient)) == 2, "saved once, pressed twice"
+    assert [one.trials for one in screen.list_unsaved()] == [(30.0,)], "typed while the others were saved"
+    typed(screen, "GRIP", "")
     assert screen.form.rows["FLEXION"].last_text.text() == "changed"
     assert "170° active · MK" in screen.form.rows["FLEXION"].last_text.toolTip()
     assert told.asked == ["Check the unusual values, or save them as entered"]

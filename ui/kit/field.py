@@ -175,8 +175,14 @@ class DateField(QLineEdit):
         self.setText(numbers.format_date(day) if day is not None else "")
 
 
+SHOWN_DIGITS = 6
+"""Significant digits of a number in a field."""
+
+
 def parse_number(text: str) -> float:
     """Return a number with decimal comma or point, NaN for anything else."""
+    if "_" in text:  # Python's, nobody's
+        return math.nan
     try:
         value = float(text.strip().removesuffix("°").strip().replace(",", ".").replace("\N{MINUS SIGN}", "-"))
     except ValueError:
@@ -207,7 +213,9 @@ class NumberField(QLineEdit):
     def set_value(self, value: float) -> None:
         """Show a number; NaN empties the field."""
         self.setText(
-            numbers.format_significant(value, 6).replace("-", "\N{MINUS SIGN}") if math.isfinite(value) else ""
+            numbers.format_significant(value, SHOWN_DIGITS).replace("-", "\N{MINUS SIGN}")
+            if math.isfinite(value)
+            else ""
         )
 
     @property

@@ -36,7 +36,7 @@ from carpus.core.model.types import Side
 from carpus.core.results.manual_proposals import CellKey
 from carpus.core.results.measure import Measure
 from carpus.ui.kit import numbers
-from carpus.ui.kit.field import parse_number
+from carpus.ui.kit.field import SHOWN_DIGITS, parse_number
 from carpus.ui.kit.text import REGULAR, SEMIBOLD
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
@@ -196,7 +196,7 @@ class FingerGrid(QTableWidget):
             cell.note = "\n".join(filter(None, (*notes, history_words(values, [key], day))))
             if cell.is_entry:
                 stored = kept.get((key, day))
-                shown = numbers.format_significant(stored.value, 6) if stored and stored.trials else ""
+                shown = numbers.format_significant(stored.value, SHOWN_DIGITS) if stored and stored.trials else ""
                 cell.setText(shown.replace("-", "\N{MINUS SIGN}"))
         self._update_totals()
         self.blockSignals(False)

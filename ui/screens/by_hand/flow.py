@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt
 
-from carpus.core.measures.manual_measurements import ManualValue
+from carpus.core.measures.manual_measurements import ManualValue, find_latest_entries
 from carpus.core.model.fault_text import MessageText
 from carpus.core.model.types import Side
 from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRecord
@@ -25,6 +25,7 @@ class ManualMeasurementsFlow(Flow):
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, ManualMeasurementsScreen(context.theme, context.today))
         self._unsaved_values: dict[str, Sequence[ManualValue]] = {}
+        self._is_saving = False
         self.screen.save_requested.connect(self._confirm_save)
         self.screen.close_button.clicked.connect(self.navigate_back)
 
@@ -89,16 +90,34 @@ class ManualMeasurementsFlow(Flow):
             )
 
         def on_loaded(record: ManualRecord) -> None:
+            self._is_saving = False
             if self.context.current.patient is None or self.context.current.patient.patient_id != patient_id:
                 return
             self._stash_unsaved(patient_id)
+            typed_since = self._list_typed_since(record) if is_refresh else []
             self.screen.show_record(record, is_refresh=is_refresh)
+            if typed_since:
+                self.screen.restore_unsaved(typed_since)
             if not is_refresh:
                 self.screen.restore_unsaved(self._unsaved_values.pop(patient_id, ()))
                 self.context.navigator.switch_screen("by_hand")
                 self.screen.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
 
-        self.run(read, on_loaded)
+        self.run(read, on_loaded, self._show_failure)
+
+    def _show_failure(self, fault: Exception) -> None:
+        self._is_saving = False
+        self.context.messages.show_fault(fault)
+
+    def _list_typed_since(self, record: ManualRecord) -> list[ManualValue]:
+        """Return what was typed while the values of before were being saved."""
+        with suppress(ValueError):  # what cannot be kept is marked red
+            kept = find_latest_entries(record.values)
+            typed = [(one, kept.get((one.key, one.day))) for one in self.screen.list_unsaved()]
+            return [
+                one for one, last in typed if last is None or (last.trials, last.location) != (one.trials, one.location)
+            ]
+        return []
 
     def _stash_unsaved(self, patient_id: str) -> None:
         """Keep another patient's unsaved values until that form is opened again."""
@@ -108,7 +127,7 @@ class ManualMeasurementsFlow(Flow):
                 self._unsaved_values[before] = values
 
     def _confirm_save(self, values: Sequence[ManualValue], doubts: Sequence[str]) -> None:
-        if not values:
+        if not values or self._is_saving:
             return
         if not doubts:
             self._save(values)
@@ -132,7 +151,9 @@ class ManualMeasurementsFlow(Flow):
             return
         patient_id, by = patient.patient_id, self.context.report_settings.therapist
         signed = [replace(one, rater=by) for one in values]
+        self._is_saving = True  # the same values are not entered twice
         self.run(
             lambda: self.context.library.add_manual_measurements(patient_id, signed),
             lambda _: self._load(is_refresh=True),
+            self._show_failure,
         )

@@ -30,7 +30,7 @@ from carpus.core.results.manual_proposals import CellKey
 from carpus.core.results.measure import Measure
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import Separator
-from carpus.ui.kit.field import Combo, NumberField, add_inside
+from carpus.ui.kit.field import SHOWN_DIGITS, Combo, NumberField, add_inside
 from carpus.ui.kit.layouts import grid_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.kit.theme import Theme
@@ -352,10 +352,15 @@ class ManualForm(QWidget):
         found, kept = [], find_latest_entries(values)
         for one in (one for entry in self._entries for one in entry.read_values(side, day)):
             stored = kept.get((one.key, day))
-            same = (stored.trials, stored.location) == (one.trials, one.location) if stored else not one.trials
-            if not same:
+            if not (_is_shown_alike(stored, one) if stored else not one.trials):
                 found.append(one)
         return found
+
+
+def _is_shown_alike(stored: ManualValue, shown: ManualValue) -> bool:
+    """Return whether an entry is the stored one, which the form shows with so many digits only."""
+    texts = [[numbers.format_significant(value, SHOWN_DIGITS) for value in one.trials] for one in (stored, shown)]
+    return texts[0] == texts[1] and stored.location == shown.location
 
 
 class KapandjiChoice(Combo):
@@ -367,6 +372,8 @@ class KapandjiChoice(Combo):
     def __init__(self, theme: Theme, name: str) -> None:
         super().__init__()
         self.setAccessibleName(name)
+        self._half_score = math.nan
+        """Score between two stages, as it could be typed once; kept until another is chosen."""
         self.set_proposal("")
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.currentTextChanged.connect(self.textChanged)
@@ -374,8 +381,10 @@ class KapandjiChoice(Combo):
 
     def set_proposal(self, words: str) -> None:
         """Show what a session proposes as long as nothing is chosen."""
+        self._proposal = words
         stages = ((score, f"{score}: {stage}") for score, stage in enumerate(kapandji_stages()))
-        self.set_choices([(None, words), *stages], self.currentData())
+        half = [(self._half_score, numbers.format_fixed(self._half_score, 1))] if self._half_score > 0.0 else []
+        self.set_choices([(None, words), *stages, *half], self.currentData())
         self.setToolTip(words)
 
     @property
@@ -387,7 +396,12 @@ class KapandjiChoice(Combo):
 
     def set_value(self, value: float) -> None:
         """Choose a score; NaN chooses none."""
-        self.setCurrentIndex(1 + int(value) if math.isfinite(value) else 0)
+        if math.isfinite(value) and not value.is_integer():
+            self._half_score = value
+            self.set_proposal(self._proposal)
+            self.setCurrentIndex(self.count() - 1)
+        else:
+            self.setCurrentIndex(1 + int(value) if math.isfinite(value) else 0)
 
 
 class ValueField(NumberField):
