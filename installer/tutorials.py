@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import base64
-import os
 import sys
 import tempfile
 from pathlib import Path
@@ -40,7 +39,6 @@ def write_page(notebook: nbformat.NotebookNode, page: Path) -> None:
 def main(notebooks: Path, pages: Path) -> None:
     """Run all notebooks in one folder, so that they share recordings."""
     pages.mkdir(parents=True, exist_ok=True)
-    os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     with tempfile.TemporaryDirectory() as folder:
         for path in sorted(notebooks.glob("*.ipynb")):
             notebook = nbformat.read(path, as_version=4)
