@@ -1285,7 +1285,7 @@
     </message>
     <message>
         <source>hatched: within the limit you set</source>
-        <translation>schraffiert: innerhalb Ihrer Grenze</translation>
+        <translation>schraffiert: innerhalb der eingestellten Grenze</translation>
     </message>
     <message>
         <source>seconds after the first frame</source>
@@ -1457,7 +1457,7 @@
     </message>
     <message>
         <source>partly occluded, or too few</source>
-        <translation>teilweise verdeckt oder zu wenige</translation>
+        <translation>teilweise verdeckt oder zu wenige Wdh.</translation>
     </message>
     <message>
         <source>at least {change}, MDC {limit}</source>
@@ -5863,7 +5863,7 @@ cm</translation>
     </message>
     <message>
         <source>The hand was still for only {value} frames ({limit} or more are good).</source>
-        <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
+        <translation>Die Hand war nur {value} Bilder lang ruhig ({limit} oder mehr sind gut).</translation>
     </message>
     <message>
         <source>The pseudonym {subject} belongs to another patient.</source>
@@ -8342,7 +8342,7 @@ von oben</translation>
     </message>
     <message>
         <source>{name} over time</source>
-        <translation>{name} im Verlauf der Tage</translation>
+        <translation>{name} im zeitlichen Verlauf</translation>
     </message>
 </context>
 <context>
