@@ -27,7 +27,7 @@ from carpus.core.records.erasure import resume_erasures
 from carpus.core.records.limits_file import read_limits
 from carpus.core.records.log import AuditLog, AuditLogWriter, AuditSource
 from carpus.core.records.patients import Patients
-from carpus.core.records.session_list import SessionList
+from carpus.core.records.session_list import SessionList, to_file_name
 from carpus.core.records.session_records import MAX_COMMENT_CHARACTERS, OutputKind
 from carpus.core.records.session_setup import MARKERS_SUFFIX, PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.store import Store, open_to_read
@@ -155,7 +155,7 @@ class DataFolder:
             self._last_names = [
                 str(text)
                 for one in self.patients.search(include_archived=True)
-                for text in (one.pseudonym, one.pseudonym.replace(" ", "-"), one.name, one.record_number, one.birth_day)
+                for text in (one.pseudonym, to_file_name(one.pseudonym), one.name, one.record_number, one.birth_day)
                 if text
             ]
         return self._last_names

@@ -33,7 +33,7 @@ from carpus.ui.report.pdf import write_report
 from carpus.ui.report.progress_page import build_progress_report
 from carpus.ui.report.session_page import SECTIONS, ReportSection, SessionReport, build_session_report
 from carpus.ui.screens.report.panel import fill_sentence
-from carpus.ui.screens.report.screen import PAGE_SIZES, make_printer, print_pages
+from carpus.ui.screens.report.screen import PAGE_SIZES, default_file_name, make_printer, print_pages
 from carpus.ui.screens.settings.report_card import LogoError, logo_png
 from carpus.ui.words.patient import task_words
 from carpus.ui.words.session import warning_lines
@@ -302,3 +302,11 @@ def test_report_of_an_older_result_names_the_newer_one() -> None:
     said = "An older result: there is a newer one of the same recording."
     for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
         assert (said in warning_lines(build_session_report(session, history=history).results)) is is_older
+
+
+def test_report_of_a_pseudonym_with_slashes_has_a_name_of_one_file() -> None:
+    figures = sorted(FakeSessions().history("linden"), key=lambda one: one.when)
+    for pseudonym, start in (("Bäßler/Ö:*?\\ 1", "Bäßler-Ö-1_"), ("Linden 42", "Linden-42_"), ("../..", "patient_")):
+        name = default_file_name(replace(build_progress_report(figures), pseudonym=pseudonym))
+        assert name.startswith(start)
+        assert Path(name).name == name

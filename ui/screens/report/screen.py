@@ -12,6 +12,7 @@ from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from carpus.core.platform.durable import replace_file
+from carpus.core.records.session_list import to_file_name
 from carpus.core.results.report_form import PAPER_PT
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
@@ -248,7 +249,7 @@ class ReportScreen(QWidget):
 
 def default_file_name(report: Report) -> str:
     """Return ``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: pseudonym, time and content."""
-    name, when = report.pseudonym.replace(" ", "-"), max(results.when for results in report.sessions)
+    name, when = to_file_name(report.pseudonym) or "patient", max(results.when for results in report.sessions)
     kind = translate_phrase(report.kind)
     if isinstance(report, ProgressReport):
         return f"{name}_{when:%Y-%m-%d}_{kind}.pdf"
