@@ -22,11 +22,13 @@ from pytestqt.qtbot import QtBot
 from carpus.core.model.errors import (
     ConcurrentChange,
     DiskFull,
+    FolderMissing,
     OutputNotWritable,
     PatientListBusy,
     SessionUnreadable,
 )
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
+from carpus.core.records.backup import collect_sources
 from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import recover_sessions
@@ -481,3 +483,42 @@ def test_result_accepted_during_a_search_is_stored_once(kept: Kept, monkeypatch:
     assert set(kept.path.parent.iterdir()) == {kept.path, library.entry(new).path}
     assert len(library.session(new)) == len(library.session(kept.session_id))
     assert not trial.exists()
+
+
+def test_copy_of_killed_accept_is_removed_and_not_backed_up(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+    corrections, folder, trial = kept.corrections, kept.path.parent, kept.trial()
+    copies: dict[Path, bytes] = {}
+
+    def killed_after_copying(*_: object) -> None:
+        copies.update({path: path.read_bytes() for path in folder.glob(".*")})
+        raise Killed
+
+    with monkeypatch.context() as patched:
+        on_another_disk(patched)
+        patched.setattr(os, "fsync", killed_after_copying)
+        with pytest.raises(Killed):
+            corrections.accept(kept.session_id, trial)
+    ((copy, content),) = copies.items()
+    copy.write_bytes(content)
+    data = kept.library.folder
+    names = {path for _, path, _ in collect_sources(data, data.with_name("place"), None).files}
+    assert kept.path in names
+    assert copy not in names
+    assert corrections.list_pending() == [PendingResult(kept.session_id, trial)]
+    assert not copy.exists()
+    copy.write_bytes(content)
+    corrections.accept(kept.session_id, trial)
+    assert list(folder.glob(".*")) == []
+
+
+def test_accept_with_share_away_changes_nothing(tmp_path: Path, stored: Stored, corrected: Path) -> None:
+    share = tmp_path / "share"
+    share.mkdir()
+    with closing(DataFolder(tmp_path / "data", sessions_folder=share)) as library:
+        kept = enter_session(library, stored, corrected)
+        trial = kept.trial()
+        share.rename(tmp_path / "away")
+        with pytest.raises(FolderMissing):
+            kept.corrections.accept(kept.session_id, trial)
+        assert kept.corrections.list_pending() == [PendingResult(kept.session_id, trial)]
+        assert kept.listed == [kept.session_id]

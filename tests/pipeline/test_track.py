@@ -26,7 +26,7 @@ from carpus.core.model.errors import (
     SessionUnreadable,
 )
 from carpus.core.model.types import FloatArray
-from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from carpus.core.pipeline.track import TrackReport, TrackSettings, restart_at_neutral, retrack_session, track_recording
 from carpus.core.platform.version import __version__
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import EncodedImages
@@ -266,3 +266,16 @@ def test_retrack_invalid_calibration_or_detections_raise(place: str, value: floa
     with pytest.raises(SessionUnreadable, match="damaged"):
         retrack_session(damaged, tmp_path / "again.h5", TrackSettings())
     assert not list(tmp_path.glob("again*"))
+
+
+def test_restart_at_neutral_once_after_still_frames() -> None:
+    """The still frames made the calibration; what they say must not be counted again."""
+    log: list[float | str] = []
+
+    class Begun:
+        def begin_at_neutral(self) -> None:
+            log.append("begun")
+
+    for time_s in restart_at_neutral([0.0, 0.1, 0.2, 0.3, 0.4], Begun(), 0.2, lambda time_s: time_s):  # type: ignore[arg-type]
+        log.append(time_s)
+    assert log == [0.0, 0.1, 0.2, "begun", 0.3, 0.4]

@@ -558,3 +558,17 @@ def test_create_backup_unreadable_file_is_reported_rest_included(
     with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
         make_backup(data, place)
     assert list_backups(place)[0].session_count == 2
+
+
+def test_prune_backups_leaves_link_targets(data: Path, place: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
+    make_backups(data, place, 0, 40)
+    mine.mkdir()
+    for name in ("thesis.txt", "0" * 64):
+        (mine / name).write_text("years of work")
+    (place / OBJECTS / "zz").symlink_to(mine)
+    (place / OBJECTS / "00").mkdir(exist_ok=True)
+    (place / OBJECTS / "00" / "note.txt").write_text("mine too")
+    assert prune_backups(place, 1, 0, NOW) == 1
+    assert sorted(path.name for path in mine.iterdir()) == ["0" * 64, "thesis.txt"]
+    assert (place / OBJECTS / "00" / "note.txt").exists()

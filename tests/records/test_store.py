@@ -446,3 +446,19 @@ def test_patient_search_finds_every_word(tmp_path: Path) -> None:
             "heron 42": set(), "%": set(),
         }.items():  # fmt: skip
             assert set(house.names(search)) == found, search
+
+
+def test_new_path_is_free_and_in_patient_folder(tmp_path: Path) -> None:
+    with open_store(tmp_path) as house:
+        patient_id = house.patients.add(LINDEN)
+        first = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
+        assert first.name == "Linden-42_2026-10-09_095100_wrist-up-down_left.h5"
+        first.write_text("")
+        second = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
+        assert second != first
+        assert second.parent == first.parent
+        folders = set()
+        for pseudonym in ("Fir 11", "Fir-11", "Fir_11", "fir.11"):
+            patient_id = house.patients.add(Patient(pseudonym, "left"))
+            folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
+        assert len(folders) == 4
