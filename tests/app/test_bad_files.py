@@ -203,3 +203,12 @@ def test_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
         house.patients.change(Patient("Linden 42", "right", patient_id=key))
         found = [path.name for path in tmp_path.iterdir() if path.is_file() and b"Featherstone" in path.read_bytes()]
         assert found == []
+
+
+def test_damaged_file_is_read_again_when_it_has_changed(tmp_path: Path) -> None:
+    path = tmp_path / "sessions" / "s.h5"
+    good = store_file(path).read_bytes()
+    path.write_bytes(good[:3000])
+    assert len(start_program(tmp_path)[1]) == 1
+    path.write_bytes(good)
+    assert start_program(tmp_path) == (["Linden 42"], [])

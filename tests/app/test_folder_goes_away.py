@@ -173,3 +173,18 @@ def test_empty_mount_point_is_not_used_as_share(tmp_path: Path) -> None:
         (tmp_path / "unplugged").rename(share)
         assert [type(fault) for fault in recover_sessions(library)[1]] == [SessionSpooled, SpooledSessionMoved]
         assert len(library.sessions(linden)) == 2
+
+
+def test_session_being_published_is_not_imported_as_well(library: DataFolder, monkeypatch: pytest.MonkeyPatch) -> None:
+    key = library.patients.add(Patient("Linden 42", "left"))
+    found: list[object] = []
+    copy = new_sessions.copy_session
+
+    def copied(path: Path, folder: Path) -> Path:
+        found.append(recover_sessions(library))  # the share is back at this moment
+        return copy(path, folder)
+
+    monkeypatch.setattr(new_sessions, "copy_session", copied)
+    SessionIntake(library).register(set_up(key, "Linden 42"), record_session(library, key))
+    assert found == [([], [])]
+    assert len(library.sessions(key)) == 1
