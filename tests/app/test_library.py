@@ -16,11 +16,13 @@ import pytest
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.hand.exercises import get_exercise
+from carpus.core.records import session_records
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.retention import RecordRetention
-from carpus.core.records.session_setup import SessionSetup
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Patient
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
@@ -168,3 +170,19 @@ def test_angle_order_changes_display_but_not_files(library: DataFolder, tmp_path
         first = next(row for row in csv.DictReader(file) if row["filter_flexion_deg"])
     row = int(np.flatnonzero(np.isfinite(plain.motion.angles_rad[:, 1]))[0])
     assert float(first["filter_flexion_deg"]) == pytest.approx(math.degrees(plain.motion.angles_rad[row, 1]), abs=1e-3)
+
+
+def test_choices_and_comments_are_kept_in_the_store(library: DataFolder) -> None:
+    session_id = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
+    choices = RepetitionChoices({2: "pain", 0: ""}, {1: (3.5, 6.25)}, is_session_excluded=True)
+    library.save_choices(session_id, choices)
+    for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
+        library.save_comment(session_id, text)
+    assert [one.text for one in session_records.read_comments(library.store, session_id)] == [
+        "First.",
+        "Second,\nwith a line.",
+        "",
+    ]
+    assert library.comment(session_id) == ""
+    assert library.choices(session_id) == choices
+    assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"

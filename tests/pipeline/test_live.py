@@ -568,3 +568,22 @@ def test_compute_capacity_little_memory_has_less(
     one = frame(0)
     monkeypatch.setattr(backlog, "read_free_memory_bytes", lambda: free_frames * one.color_rgb.nbytes)
     assert compute_capacity(one, 100) == capacity
+
+
+def test_live_session_stores_frames_before_tracking() -> None:
+    source, gate = ControlledSource(), Gate()
+    rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
+
+    with LiveSession(source, LiveSettings(max_waiting_frames=16, max_waiting_images=100)) as live:
+        live.start_tracking(make_gated_tracker(gate))
+        live.start_recording(lambda: rows, lambda: pictures)
+        deliver(live, source, 60)
+        assert live.counters().dropped > 0
+        wait_until(lambda: live.counters().frames_written == 60)
+        assert live.counters().tracked == 0
+        gate.open()
+        live.stop_recording()
+    assert [f.index for f in pictures.pictures] == list(range(60))
+    assert pictures.ended == "closed"
+    assert pictures.threads == {"pictures"}
+    assert len(rows.rows) < 60
