@@ -91,7 +91,7 @@ class RepetitionResult:
 
     It lasts from leaving the first turning point to reaching the last; ``window`` is that of its range, with holds.
     ``unmeasured_reason``: too little was seen, or it was cut; ``exclusion_reason``: why a person excluded it, empty if
-    it is included.
+    it is included; ``has_chosen_edges``: a person moved its start or end.
     """
 
     start_s: float
@@ -101,6 +101,7 @@ class RepetitionResult:
     unmeasured_reason: UnmeasuredReason = ""
     exclusion_reason: str = ""
     strokes: tuple[StrokeMeasures, ...] = ()
+    has_chosen_edges: bool = False
 
     @property
     def is_passive(self) -> bool:
@@ -267,7 +268,7 @@ def _measure_repetition(
     )
     first_s = start_s if math.isfinite(start_s) else window.start_s
     last_s = end_s if math.isfinite(end_s) else window.end_s
-    return RepetitionResult(first_s, last_s, window, row, why, exclusion_reason, own)
+    return RepetitionResult(first_s, last_s, window, row, why, exclusion_reason, own, edges_s is not None)
 
 
 def _with_edges(trained: TrainedAngle, rep: Repetition, start_s: float, end_s: float) -> Repetition:

@@ -6401,6 +6401,14 @@ cm</translation>
         <source>Boone and Azen 1979, 109 males from 18 months on (active, goniometer)</source>
         <translation>Boone und Azen 1979, 109 männliche Personen ab 18 Monaten (aktiv, Goniometer)</translation>
     </message>
+    <message>
+        <source>Undo the last change of a repetition</source>
+        <translation>Letzte Änderung einer Wiederholung rückgängig machen</translation>
+    </message>
+    <message>
+        <source>start or end set manually: repetition {numbers}</source>
+        <translation>Anfang oder Ende manuell gesetzt: Wiederholung {numbers}</translation>
+    </message>
 </context>
 <context>
     <name>AppointmentBox</name>

@@ -640,6 +640,10 @@
         <translation>Escludi o includi una ripetizione</translation>
     </message>
     <message>
+        <source>Undo the last change of a repetition</source>
+        <translation>Annullare l’ultima modifica di una ripetizione</translation>
+    </message>
+    <message>
         <source>Open the selected session</source>
         <translation>Apri la seduta selezionata</translation>
     </message>
@@ -5618,6 +5622,10 @@
     <message>
         <source>repetition {number} excluded: {reason}</source>
         <translation>numero {number} esclusa: {reason}</translation>
+    </message>
+    <message>
+        <source>start or end set manually: repetition {numbers}</source>
+        <translation>inizio o fine spostati manualmente: ripetizione {numbers}</translation>
     </message>
     <message>
         <source>as intended: the hand stays straight</source>

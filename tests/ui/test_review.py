@@ -12,6 +12,7 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.progress.screen import ProgressScreen
 from carpus.ui.screens.review.screen import ReviewScreen
+from carpus.ui.words.ranges import repetition_words
 from tests.ui.conftest import Reviewing, Show
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag
@@ -110,6 +111,16 @@ def test_edges_of_repetition_are_moved_by_keys_and_dragged_by_mouse(
     drag(qtbot, screen.charts.curves.mouse_target, QPointF(start), -12)
     assert screen.results.repetitions[2].end_s < after.end_s - 0.5
     assert screen.results.repetitions[2].start_s == after.start_s
+    assert "start or end set manually: repetition 3" in repetition_words(screen.results)
+    qtbot.keyClick(screen, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert screen.results.repetitions[2].end_s == after.end_s
+    qtbot.keyClick(screen, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert screen.results.repetitions[2] == before
+    assert "manually" not in repetition_words(screen.results)
+    qtbot.waitUntil(lambda: not store.kept["session-7"].edges_s)
+    beside = QPointF(float(panel.x(before.end_s)), panel.box.bottom() - 2.0)  # the line, but not its handle
+    drag(qtbot, screen.charts.curves.mouse_target, beside, -12)
+    assert screen.results.repetitions[2] == before
 
 
 def test_progress_answers_with_the_arc_and_rings_what_is_unfair(

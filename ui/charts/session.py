@@ -333,7 +333,7 @@ LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
 # Left, top, right and bottom margin on paper, without the room for readings of the screen.
 PAPER_MARGINS = (106.0, 26.0, 8.0, 22.0)
 HAND_BETWEEN, PAPER_BETWEEN, NUMBERS_ABOVE = 8, 12, 10
-# Half the width of the drag target around an edge or the cursor.
+# Half the size of the drag target around the handle of an edge or around the cursor.
 GRIP_PX = 16
 # Shortest visible time span.
 MIN_SPAN_S = 2.0
@@ -597,12 +597,12 @@ class SessionChart(ZoomChart):
 
     # --- mouse --------------------------------------------------------------------------------------------
     def _find_edge(self, point: QPointF) -> str:
-        """Return ``start`` or ``end`` of the current repetition under the mouse, or an empty string."""
+        """Return ``start`` or ``end`` of the current repetition if the mouse is on its handle, or an empty string."""
         plot = self._plot
         if plot is None or not 0 <= plot.current < len(plot.repetitions):
             return ""
         panel = self.panels()[0][0]
-        if not panel.box.top() <= point.y() <= panel.box.bottom():
+        if abs(point.y() - panel.box.center().y()) > GRIP_PX:
             return ""
         repetition = plot.repetitions[plot.current]
         away = {

@@ -92,7 +92,7 @@ def _find_norm(results: SessionResults, person: Person | None = None) -> Norm | 
 
 
 def repetition_words(results: SessionResults) -> str:
-    """Return the number of repetitions and which are excluded, and why."""
+    """Return the number of repetitions, which are excluded and why, and whose edges a person moved."""
     excluded_passive = [tr("passive repetitions excluded")] if results.excludes_passive else []
     strokes = [len(item.values) for item in results.measures_in_group("task") if item.quantity == "movement time"]
     parts = []
@@ -115,6 +115,9 @@ def repetition_words(results: SessionResults) -> str:
             text = "" if repetition.exclusion_reason == PASSIVE else repetition.exclusion_reason
             reason = text or translate_phrase(_UNMEASURED[repetition.unmeasured_reason])
             parts.append(tr("repetition {number} excluded: {reason}").format(number=number, reason=reason))
+    chosen = [str(number) for number, one in enumerate(results.repetitions, 1) if one.has_chosen_edges]
+    if chosen:
+        parts.append(tr("start or end set manually: repetition {numbers}").format(numbers=", ".join(chosen)))
     if results.exercise.has_repetitions and results.occluded_s >= 1.0:
         # Movements without a visible hand are not in the number of repetitions.
         parts.append(tr("{seconds} s occluded and not analysed").format(seconds=format_rounded(results.occluded_s)))

@@ -60,6 +60,7 @@ class ReviewScreen(FittedWidget):
         self._session_id = ""
         self._whole_hand = self._tight = False
         self.reviewed: ReviewedSession | None = None
+        self._earlier_choices: list[RepetitionChoices] = []  # of the session shown, the last one last
         # Current repetition from 0, -1 for none.
         self.current = -1
         self.playing = PlaybackClock(self)
@@ -126,6 +127,7 @@ class ReviewScreen(FittedWidget):
             "repetition_on": lambda: self.select_repetition(self.current + 1),
             "leave_out": self.toggle_excluded,
             "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S), "edge_on": lambda: self.nudge_edge(EDGE_STEP_S),
+            "review_undo": self.undo_choice,
             "report": card.report_button.click, "export": card.export_button.click, "plot_in": curves.zoom_in,
             "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
             "comparison": card.compare_button.click, "angle": self.frame_view.angle_button.click,
@@ -139,6 +141,7 @@ class ReviewScreen(FittedWidget):
     ) -> None:
         """Read a session in the background, then show it; ``whole_hand``, if known, fixes the layout at once."""
         self._session_id, self.reviewed = session_id, None
+        self._earlier_choices.clear()
         for sheet in (self.exclusion_dialog, self.hand_image_dialog):
             sheet.close_dialog()  # what they ask about was of the session before
         self.playing.open(-1.0)
@@ -273,7 +276,18 @@ class ReviewScreen(FittedWidget):
     def _apply_choices(self, choices_of: Callable[[ReviewedSession], RepetitionChoices]) -> None:
         if self.reviewed is None:
             return
-        choices = choices_of(self.reviewed)
+        self._earlier_choices.append(self.reviewed.choices)
+        self._save_choices(choices_of(self.reviewed))
+
+    def undo_choice(self) -> None:
+        """Take back the last exclusion or moved edge since the session was opened."""
+        if self._earlier_choices:
+            self._save_choices(self._earlier_choices.pop())
+            self.session_shown.emit()
+
+    def _save_choices(self, choices: RepetitionChoices) -> None:
+        if self.reviewed is None:
+            return
         self.reviewed = self.reviewed.apply_choices(choices)
         self._refresh()
         store, session_id = self._store, self._session_id
