@@ -8710,7 +8710,7 @@ von oben</translation>
     </message>
     <message>
         <source>Earlier</source>
-        <translation>Nach oben</translation>
+        <translation>Hoch</translation>
     </message>
     <message>
         <source>Remove</source>
