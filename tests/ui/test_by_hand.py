@@ -225,6 +225,16 @@ def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
     assert propose_kapandji([seen], seen.side, TODAY) is None, "of a day to come"
 
 
+def test_score_typed_stays_when_answers_are_begun_and_given_up(screen: ManualMeasurementsScreen) -> None:
+    saved = ManualValue("PRWE", "", "", TODAY, (40.0,))
+    screen.show_record(ManualRecord("Linden 42", "right", (saved,), (), ""))
+    typed(screen, "PRWE", "41")
+    answers = screen.form.rows["PRWE"].answers_field
+    for text in ("4", ""):
+        answers.setText(text)
+        assert [one.trials for one in screen.list_unsaved()] == [(41.0,)]
+
+
 def test_stored_values_of_more_digits_than_shown_are_no_change(screen: ManualMeasurementsScreen) -> None:
     stored = (
         ManualValue("FLEXION", "active", "right", TODAY, (12.34567,)),

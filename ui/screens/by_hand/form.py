@@ -80,6 +80,7 @@ class MeasureRow(QObject):
                 else ValueField(theme, measure, f"{name} {which}".strip(), FIELD_PX[measure.kind])
             )  # fmt: skip
             field.textChanged.connect(lambda _: self._on_edited())
+            field.textEdited.connect(lambda _, field=field: self._keep_typed_value(field))
             self.fields.append((way, field))
         self.location_field = QLineEdit(maxLength=MAX_LOCATION_LENGTH, placeholderText=self.tr("location"))
         self.location_field.setAccessibleName(self.tr("{name}: location of the measurement").format(name=name))
@@ -135,6 +136,10 @@ class MeasureRow(QObject):
             self.side_text.setText(self.tr("not a valid answer"))
         elif answers and not known:
             self.side_text.setText(self.tr("{count} of {all}").format(count=len(answers), all=facts.item_count))
+
+    def _keep_typed_value(self, field: ValueField | KapandjiChoice) -> None:
+        """Let answers that are not complete bring back the score typed last, as they do a saved one."""
+        self._value_before = field.value()
 
     def keys(self, side: Side) -> list[MeasureKey]:
         return [(self.measure.id, way, side if self.measure.is_per_hand else "") for way in self.measure.modes]
