@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
+from sqlalchemy import delete
 
 from carpus.core.model.errors import (
     ConcurrentChange,
@@ -33,6 +34,7 @@ from carpus.core.records.corrections import Corrections, PendingResult, compare_
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.records.retention import RecordRetention
+from carpus.core.records.schema import SESSION
 from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
@@ -522,3 +524,6 @@ def test_accept_with_share_away_changes_nothing(tmp_path: Path, stored: Stored, 
             kept.corrections.accept(kept.session_id, trial)
         assert kept.corrections.list_pending() == [PendingResult(kept.session_id, trial)]
         assert kept.listed == [kept.session_id]
+        library.store.execute_local(delete(SESSION))  # a list that does not know what lies on the share
+        assert kept.corrections.list_pending() == []
+        assert trial.exists()

@@ -18,6 +18,7 @@ from carpus.core.capture.frame_assembly import (
     PAIRING_TOLERANCE_US,
     FrameAssembler,
     StreamLayout,
+    camera_from_field_of_view,
 )
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.model.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
@@ -211,3 +212,13 @@ def test_frame_assembler_images_are_copies() -> None:
     (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add_color(0, 1, view)
     view[:] = 0
     assert (frame.color_rgb == 3).all()
+
+
+def test_camera_from_field_of_view_has_its_focal_length() -> None:
+    # the angles an Asus Xtion tells: f = 570.34 px
+    camera = camera_from_field_of_view((640, 480), (1.02260, 0.79662))
+    assert camera is not None
+    assert camera.fx_px == pytest.approx(570.34, abs=0.05)
+    assert camera.fy_px == pytest.approx(570.34, abs=0.05)
+    assert (camera.cx_px, camera.cy_px, camera.origin) == (319.5, 239.5, "driver")
+    assert camera_from_field_of_view((640, 400), None) is None

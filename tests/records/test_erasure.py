@@ -465,3 +465,14 @@ def test_erase_session_deletes_files_and_rows_of_it_alone(folder: Path, house: H
     assert traces(folder, first) == []
     assert house.patients.get(linden).session_count == 1
     assert house.files.scan().session_count == 0
+
+
+def test_erase_session_keeps_session_whose_name_begins_alike(house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    first = measure(house, linden, T0)
+    path = house.index.get(first).path
+    other = record(path.with_suffix(".2.h5"), "Linden 42", T0 + timedelta(days=1))
+    house.files.scan()
+    erasure.erase(house.store, erasure.plan_session(house.store, first), house.log)
+    assert not path.exists()
+    assert other.exists()
