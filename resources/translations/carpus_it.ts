@@ -8710,7 +8710,7 @@ dall’alto</translation>
     </message>
     <message>
         <source>Earlier</source>
-        <translation>Prima</translation>
+        <translation>Su</translation>
     </message>
     <message>
         <source>Remove</source>
