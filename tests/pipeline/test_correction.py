@@ -281,7 +281,9 @@ def test_correction_missing_marker_is_added_without_depth() -> None:
 
 def test_predict_marker_px_uses_other_markers(stored: Stored) -> None:
     session = read_session(stored.path)
-    places = session.markers.measured_px[WRONG_FROM]
+    places, model_m = session.markers.measured_px[WRONG_FROM], session.markers.position_cam_m.copy()
+    model_m[WRONG_FROM, MCP3] += 0.03  # the model that followed the false spot
+    session = replace(session, markers=replace(session.markers, position_cam_m=model_m))
     expected = predict_marker_px(session, WRONG_FROM, places, MCP3)
     assert expected == pytest.approx(stored.disc_px, abs=4.0)
     assert np.linalg.norm(places[MCP3] - expected) > 40.0
