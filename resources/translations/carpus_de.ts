@@ -5847,7 +5847,7 @@ cm</translation>
     </message>
     <message>
         <source>The {markers} does not fit the other markers: no hand has this shape.</source>
-        <translation>Keine Hand hat diese Form: Ein Marker passt nicht zu den anderen ({markers}).</translation>
+        <translation>Der Marker „{markers}“ passt nicht zu den anderen: Keine Hand hat diese Form.</translation>
     </message>
     <message>
         <source>The camera is connected again: {subject} (disconnected for {detail}).</source>
@@ -7367,7 +7367,7 @@ cm</translation>
     </message>
     <message>
         <source>Is repetition {number} passive or excluded?</source>
-        <translation>Ist Wiederholung {number} passiv oder ausgeschlossen?</translation>
+        <translation>Wiederholung {number}: als passiv werten oder ausschließen?</translation>
     </message>
     <message>
         <source>Exclude</source>
@@ -7540,7 +7540,7 @@ cm</translation>
     </message>
     <message>
         <source>De-identified: random name, relative days, no notes</source>
-        <translation>De-identifiziert: Zufallsname, Tageszählung statt Datum, keine Notizen</translation>
+        <translation>Ohne Personendaten: Zufallsname, Tageszählung statt Datum, keine Notizen</translation>
     </message>
     <message>
         <source>Progress of the export</source>
@@ -9414,7 +9414,7 @@ von oben</translation>
     </message>
     <message>
         <source>de-identified</source>
-        <translation>de-identifiziert</translation>
+        <translation>ohne Personendaten</translation>
     </message>
     <message>
         <source>with a PIN</source>
@@ -10633,7 +10633,7 @@ von oben</translation>
     </message>
     <message>
         <source>New result: choose one</source>
-        <translation>Neues Ergebnis: wählen</translation>
+        <translation>Neues Ergebnis: altes oder neues wählen</translation>
     </message>
     <message>
         <source>Space for {time}</source>
