@@ -35,7 +35,7 @@ from carpus.core.records.changes import insert_row
 from carpus.core.records.database import STORE_FILE, move_aside
 from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.log import read_log
-from carpus.core.records.patients import WORDS, patient_columns, suggest_pseudonym
+from carpus.core.records.patients import WORDS, goal_change, patient_columns, read_goals, suggest_pseudonym
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, Patient, Therapist
@@ -462,3 +462,11 @@ def test_new_path_is_free_and_in_patient_folder(tmp_path: Path) -> None:
             patient_id = house.patients.add(Patient(pseudonym, "left"))
             folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
         assert len(folders) == 4
+
+
+def test_read_goals_are_of_one_patient(tmp_path: Path) -> None:
+    with open_store(tmp_path) as house:
+        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+        house.store.apply([goal_change(linden, "WRIST_FE", "right", 40.0, 30.0)])
+        assert read_goals(house.store, linden) == {("WRIST_FE", "right"): (40.0, 30.0)}
+        assert read_goals(house.store, heron) == {}

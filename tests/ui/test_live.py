@@ -110,7 +110,10 @@ def test_live_lost_camera_clears_frame_and_values(live: Live) -> None:
     tried = live(FakeFeed(), 2.0)
     tried.record()
     screen = tried.screen
+    screen.draw()
+    assert not screen.exercise_snapshot().is_late
     screen.set_camera_lost(True)
+    assert screen.exercise_snapshot().is_late, "the patient's view shows no old number either"
     screen.draw()
     assert math.isnan(tried.reading().value_deg)
     assert screen.picture.image is None
