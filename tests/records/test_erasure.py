@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shutil
+import sqlite3
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -23,7 +25,7 @@ from carpus.core.model.errors import (
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.records import clinic_records, erasure, session_records
+from carpus.core.records import clinic_records, database, erasure, session_records
 from carpus.core.records.backup import create_backup
 from carpus.core.records.changes import insert_row
 from carpus.core.records.data_folder import DataFolder
@@ -476,3 +478,18 @@ def test_erase_session_keeps_session_whose_name_begins_alike(house: House) -> No
     erasure.erase(house.store, erasure.plan_session(house.store, first), house.log)
     assert not path.exists()
     assert other.exists()
+
+
+def test_erase_with_open_reader_reports_log_as_left(
+    folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(database, "LOCK_WAIT_MS", 0)
+    linden = house.patients.add(LINDEN)
+    with contextlib.closing(sqlite3.connect(folder / database.STORE_FILE)) as reader:
+        reader.execute("BEGIN")
+        reader.execute("SELECT count(*) FROM patient").fetchall()
+        with pytest.raises(ErasureUnfinished, match="wal"):
+            erase_patient(house, linden)
+        reader.rollback()
+    erasure.resume_erasures(house.store, house.log)
+    assert traces(folder, *NAMES) == []
