@@ -51,7 +51,7 @@ from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, sample_cli
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import write_truth
 from tests.accuracy import readings_table, second
-from tests.accuracy.carpus import measure_hand
+from tests.accuracy.carpus import measure_still_hand
 from tests.accuracy.hand21 import JOINT_GROUPS
 from tests.accuracy.pages import rule_table
 from tests.simulation.measurements import measurement_sequence
@@ -111,7 +111,7 @@ def write_measured_session(spec: RecordingSpec, exercise: str, subject: str, fol
     """Track simulated measurements of the markers, without images, into a session beside its truth."""
     sequence, settings = measurement_sequence(spec), TrackSettings()
     truth = sequence.truth
-    hand, neutral_ends_s = measure_hand(sequence, CalibrationSettings())
+    hand, neutral_ends_s = measure_still_hand(sequence, CalibrationSettings())
     calibration = hand.calibration
     if calibration is None:
         raise CalibrationImpossible()

@@ -170,7 +170,7 @@ def parse_sensor(value: object) -> DepthSensor:
 
 def _validate(sensor: DepthSensor) -> DepthSensor:
     laws = (sensor.reading, sensor.stays)
-    numbers = (
+    numbers: tuple[object, ...] = (
         sensor.patch_px,
         sensor.stays_px,
         sensor.edge_px,
@@ -185,7 +185,10 @@ def _validate(sensor: DepthSensor) -> DepthSensor:
     ok = ok and 0 < len(sensor.name) <= _MAX_TEXT and len(sensor.origin) <= _MAX_TEXT
     ok = ok and sensor.kind in get_args(Kind) and sensor.edge in get_args(Edge)
     ok = ok and sensor.registration in get_args(Registration)
-    ok = ok and all(not isinstance(one, bool) and math.isfinite(one) and one >= 0.0 for one in numbers)
+    ok = ok and all(
+        isinstance(one, int | float) and not isinstance(one, bool) and math.isfinite(one) and one >= 0.0
+        for one in numbers
+    )
     ok = ok and all(0.0 <= law.fixed_m < 1.0 and 0.0 <= law.square_per_m < 1.0 for law in laws)
     ok = ok and max(sensor.reading.fixed_m, sensor.reading.square_per_m) > 0.0
     if not ok or sensor.edge_px > _MAX_EDGE_PX or sensor.patch_px < 1.0 or sensor.farthest_m <= sensor.nearest_m:

@@ -98,7 +98,7 @@ class ReadingProcess:
     def request(self, name: str, path: Path, *arguments: object) -> Any:
         """Send a request about a file and return its answer; raises its fault, or :class:`SessionUnreadable`."""
         with self._lock:
-            request = (name, os.fspath(path), arguments)
+            request = (name, os.fspath(path.absolute()), arguments)  # the child keeps the folder it was started in
             link = self._start_child()
             try:
                 link.send(request)
