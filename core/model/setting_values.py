@@ -44,7 +44,10 @@ FORMER_NAMES: Mapping[str, str] = {
     "tracker.surface.stays": "persistent_share",
     "tracker.surface.goes_on": "persistence_factor",
 }
-"""Settings of version 0.2.0 that have another name now, as settings files and sessions store them."""
+"""Present names of settings of version 0.2.0, by section and former name.
+
+Those of the tracker stand in sessions alone; a settings file cannot set them.
+"""
 NOT_IN_FILE: Mapping[str, bool] = {"in_file": False}
 """Metadata of a field that no settings file sets."""
 

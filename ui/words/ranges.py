@@ -110,14 +110,15 @@ def repetition_words(results: SessionResults) -> str:
         parts += [words, *excluded_passive]
     if passive := sum(repetition.is_passive for repetition in results.repetitions):
         parts.append(tr("plus 1 passive") if passive == 1 else tr("plus {count} passive").format(count=passive))
+    # before the exclusions: a small window cuts the end of the line
+    chosen = [str(number) for number, one in enumerate(results.repetitions, 1) if one.has_chosen_edges]
+    if chosen:
+        parts.append(tr("start or end set manually: repetition {numbers}").format(numbers=", ".join(chosen)))
     for number, repetition in enumerate(results.repetitions, 1):
         if not (repetition.is_counted or repetition.is_passive):
             text = "" if repetition.exclusion_reason == PASSIVE else repetition.exclusion_reason
             reason = text or translate_phrase(_UNMEASURED[repetition.unmeasured_reason])
             parts.append(tr("repetition {number} excluded: {reason}").format(number=number, reason=reason))
-    chosen = [str(number) for number, one in enumerate(results.repetitions, 1) if one.has_chosen_edges]
-    if chosen:
-        parts.append(tr("start or end set manually: repetition {numbers}").format(numbers=", ".join(chosen)))
     if results.exercise.has_repetitions and results.occluded_s >= 1.0:
         # Movements without a visible hand are not in the number of repetitions.
         parts.append(tr("{seconds} s occluded and not analysed").format(seconds=format_rounded(results.occluded_s)))
