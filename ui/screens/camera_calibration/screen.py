@@ -25,7 +25,7 @@ from carpus.ui.kit.layouts import (
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.screens.camera_calibration.capture_view import BoardCaptureView
-from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.shell.camera_session import CameraNameDialog
 from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, headline, result_rows, storage_words
 
 

@@ -15,9 +15,9 @@ from carpus.core.results.side_by_side import SessionPair
 from carpus.core.results.valid_data import motion_estimate
 from carpus.core.session.values import Session
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.kit.icons import State
+from carpus.ui.kit.table import Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.translate import tr
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, FingerAngle, find_finger_angle, format_spread

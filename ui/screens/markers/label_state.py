@@ -7,13 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from carpus.core.calibration.hand_calibrator import SAME_MARKER_PX, FoundMarker
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.types import FloatArray, Side
-from carpus.ui.shell.view_models import LabelProposal
-
-SAME_MARKER_PX = 3.0
-"""Pixels closer than this are on the same marker."""
 
 
 @dataclass(slots=True)
@@ -38,7 +35,7 @@ class LabelState:
     widths_px: dict[str, float] = field(default_factory=dict)
     current: str = ""
     is_chosen: bool = False
-    proposals: dict[str, LabelProposal] = field(default_factory=dict)
+    proposals: dict[str, FoundMarker] = field(default_factory=dict)
     straight_fingers: tuple[bool, ...] = ALL_STRAIGHT
 
     def __post_init__(self) -> None:
@@ -71,7 +68,7 @@ class LabelState:
         """Proposals that another label would fit nearly as well."""
         return tuple(name for name in self.missing if name in self.proposals and not self.proposals[name].is_sure)
 
-    def set_proposals(self, proposals: Mapping[str, LabelProposal]) -> None:
+    def set_proposals(self, proposals: Mapping[str, FoundMarker]) -> None:
         """Replace the proposals of markers that are not confirmed."""
         self.proposals = {name: proposals[name] for name in self.missing if name in proposals}
         if not (self.is_chosen and self.current in self.missing):
@@ -120,7 +117,7 @@ class LabelState:
         for name in [name for name, one in self.proposals.items() if _is_same_place(one.pixel, pixel)]:
             del self.proposals[name]
             if before is not None:
-                self.proposals[name] = LabelProposal(before, before_width_px, is_sure=True)
+                self.proposals[name] = FoundMarker(before, before_width_px)
             elif mine is not None:
                 self.proposals[name] = mine
         self.confirmed_px[self.current] = np.asarray(pixel, dtype=np.float64)

@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from carpus.core.calibration.calibrate import MeasuredHand
+from carpus.core.calibration.hand_calibrator import FoundMarker, HandCalibrator
 from carpus.core.calibration.result import Verdict
 from carpus.core.model.types import FloatArray, Frame
 from carpus.ui.kit.background import Background
@@ -15,7 +17,6 @@ from carpus.ui.kit.button import ENTER_KEY
 from carpus.ui.kit.translate import tr
 from carpus.ui.screens.markers.label_state import LabelState
 from carpus.ui.screens.tour.bubbles import LabelStage
-from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator, LabelProposal
 
 
 class LabellingController(QObject):
@@ -35,9 +36,9 @@ class LabellingController(QObject):
     def __init__(self, background: Background) -> None:
         super().__init__()
         self._background = background
-        self.calibrator: Calibrator | None = None
+        self.calibrator: HandCalibrator | None = None
         self.labels: LabelState | None = None
-        self.outcome: CalibrationAssessment | None = None
+        self.outcome: MeasuredHand | None = None
         """Assessment of the present labels, None before."""
         self.start_angles_rad = np.zeros(3)
         self.is_proposing = False
@@ -45,7 +46,7 @@ class LabellingController(QObject):
         self._is_manual = self._starts_if_good = False
         self._proposing = self._judging = 0
 
-    def open_calibrator(self, calibrator: Calibrator) -> None:
+    def open_calibrator(self, calibrator: HandCalibrator) -> None:
         self.calibrator, self.start_angles_rad = calibrator, np.zeros(3)
         self.reset()
 
@@ -105,7 +106,7 @@ class LabellingController(QObject):
         number, calibrator, named = self._proposing, self.calibrator, dict(self.labels.confirmed_px)
         self.is_proposing = True
 
-        def handle_proposals(proposed: Mapping[str, LabelProposal]) -> None:
+        def handle_proposals(proposed: Mapping[str, FoundMarker]) -> None:
             if number != self._proposing or self.labels is None:
                 return
             self.is_proposing = False
@@ -175,7 +176,7 @@ class LabellingController(QObject):
             return
         clicks, angles = self.labels.clicks(), self.start_angles_rad
 
-        def handle_verdict(outcome: CalibrationAssessment) -> None:
+        def handle_verdict(outcome: MeasuredHand) -> None:
             if number != self._judging:
                 return
             self.outcome = outcome

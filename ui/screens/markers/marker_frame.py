@@ -11,6 +11,7 @@ import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
 
+from carpus.core.calibration.hand_calibrator import FoundMarker
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
 from carpus.ui.kit.fonts import SEMIBOLD, font
@@ -28,7 +29,6 @@ from carpus.ui.picture.overlay import draw_with_halo
 from carpus.ui.picture.photo import label_size, paint_label, paint_wrong_label
 from carpus.ui.picture.view import FrameView
 from carpus.ui.screens.markers.label_state import LabelState
-from carpus.ui.shell.view_models import FoundMarker
 from carpus.ui.words.marker_words import finger_name, marker_title
 
 LOUPE_PX, LOUPE_ZOOM = 204, 8.0
