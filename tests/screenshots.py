@@ -75,7 +75,7 @@ def write_guide() -> int:
     from PySide6.QtGui import QColor, QImage, QPainter
 
     from carpus.ui.kit.language import LANGUAGES, set_window_language
-    from carpus.ui.screens.help.cards import FILE_NAME, write_cards
+    from carpus.ui.screens.help.guide import CARDS_FILE_NAME, write_cards
     from tests.ui.gallery import render_all_screens
 
     gc.disable()  # as the command does: a collection while pyqtgraph builds an item ends the process
@@ -101,8 +101,8 @@ def write_guide() -> int:
             painter.end()
             drawn.save(str(GUIDE / code / f"{name}.png"))
     set_window_language("en")
-    write_cards(GUIDE / FILE_NAME)
-    print(f"{len(LANGUAGES) * (len(GUIDE_PICTURES) + 3)} pictures and {FILE_NAME} in {GUIDE}")
+    write_cards(GUIDE / CARDS_FILE_NAME)
+    print(f"{len(LANGUAGES) * (len(GUIDE_PICTURES) + 3)} pictures and {CARDS_FILE_NAME} in {GUIDE}")
     return 0
 
 

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QGuiApplication
@@ -23,14 +22,11 @@ from carpus.ui.kit.dialog import has_open_dialog
 from carpus.ui.kit.fonts import DISPLAY_FAMILY, TEXT_FAMILY, load_fonts
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import translate_phrase
-from carpus.ui.screens.tour.bubble import BubbleView
-from carpus.ui.screens.tour.bubbles import ONLY_READ, Bubble, TourState, find_bubble
+from carpus.ui.screens.tour.bubble import ONLY_READ, Bubble, BubbleView, TourState, find_bubble
 from carpus.ui.screens.welcome.panel import WelcomePanel
 from carpus.ui.shell.main_window import MIN_SIZE_PX
 from carpus.ui.shell.messages import NoticeStrip
-
-if TYPE_CHECKING:
-    from carpus.ui.screens.settings.screen import Preferences
+from carpus.ui.shell.view_models import Preferences
 
 REFRESH_EVERY_MS = 150
 

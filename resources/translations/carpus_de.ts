@@ -916,10 +916,6 @@
         <translation>{markers} und {count} weitere</translation>
     </message>
     <message>
-        <source>Swap the two</source>
-        <translation>Beide tauschen</translation>
-    </message>
-    <message>
         <source>1 file was saved.</source>
         <translation>1 Datei wurde gespeichert.</translation>
     </message>
@@ -946,10 +942,6 @@
     <message>
         <source>Enter</source>
         <translation>Eingabe</translation>
-    </message>
-    <message>
-        <source>Correct labels</source>
-        <translation>Korrigieren</translation>
     </message>
     <message>
         <source>Markers</source>
@@ -4824,10 +4816,6 @@
         <translation>Hand gut erfasst</translation>
     </message>
     <message>
-        <source>Use that spot</source>
-        <translation>Diese Stelle verwenden</translation>
-    </message>
-    <message>
         <source>manual, active</source>
         <translation>manuell, aktiv</translation>
     </message>
@@ -4898,10 +4886,6 @@
     <message>
         <source>Exercise set: {name}</source>
         <translation>Übungsfolge: {name}</translation>
-    </message>
-    <message>
-        <source>Exercise set “{name}”, {number} of {count}: {part}</source>
-        <translation>Übungsfolge „{name}“, {number} von {count}: {part}</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -7125,6 +7109,10 @@ cm</translation>
 <context>
     <name>CourseRunner</name>
     <message>
+        <source>Exercise set “{name}”, {number} of {count}: {part}</source>
+        <translation>Übungsfolge „{name}“, {number} von {count}: {part}</translation>
+    </message>
+    <message>
         <source>Rest {time}. Press Space to start now.</source>
         <translation>Pause {time}. Leertaste: sofort beginnen.</translation>
     </message>
@@ -7678,8 +7666,24 @@ cm</translation>
         <translation>Messung starten</translation>
     </message>
     <message>
+        <source>Swap the two</source>
+        <translation>Beide tauschen</translation>
+    </message>
+    <message>
+        <source>Click the marker again</source>
+        <translation>Marker neu anklicken</translation>
+    </message>
+    <message>
         <source>Correct labels</source>
         <translation>Korrigieren</translation>
+    </message>
+    <message>
+        <source>Use that spot</source>
+        <translation>Diese Stelle verwenden</translation>
+    </message>
+    <message>
+        <source>New image</source>
+        <translation>Neues Bild</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>

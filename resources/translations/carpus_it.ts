@@ -920,10 +920,6 @@
         <translation>{markers} e altri {count}</translation>
     </message>
     <message>
-        <source>Swap the two</source>
-        <translation>Scambia i due</translation>
-    </message>
-    <message>
         <source>1 file was saved.</source>
         <translation>È stato salvato 1 file.</translation>
     </message>
@@ -950,10 +946,6 @@
     <message>
         <source>Enter</source>
         <translation>Invio</translation>
-    </message>
-    <message>
-        <source>Correct labels</source>
-        <translation>Correggi le etichette</translation>
     </message>
     <message>
         <source>Markers</source>
@@ -4828,10 +4820,6 @@
         <translation>Mano ben rilevata</translation>
     </message>
     <message>
-        <source>Use that spot</source>
-        <translation>Usa quel punto</translation>
-    </message>
-    <message>
         <source>manual, active</source>
         <translation>manuale, attivo</translation>
     </message>
@@ -4902,10 +4890,6 @@
     <message>
         <source>Exercise set: {name}</source>
         <translation>Sequenza: {name}</translation>
-    </message>
-    <message>
-        <source>Exercise set “{name}”, {number} of {count}: {part}</source>
-        <translation>Sequenza “{name}”, {number} di {count}: {part}</translation>
     </message>
     <message>
         <source>Camera permissions, {title}</source>
@@ -7125,6 +7109,10 @@ cm</translation>
 <context>
     <name>CourseRunner</name>
     <message>
+        <source>Exercise set “{name}”, {number} of {count}: {part}</source>
+        <translation>Sequenza “{name}”, {number} di {count}: {part}</translation>
+    </message>
+    <message>
         <source>Rest {time}. Press Space to start now.</source>
         <translation>Pausa {time}. Barra spaziatrice: iniziare subito.</translation>
     </message>
@@ -7678,8 +7666,24 @@ cm</translation>
         <translation>Inizia a misurare</translation>
     </message>
     <message>
+        <source>Swap the two</source>
+        <translation>Scambia i due</translation>
+    </message>
+    <message>
+        <source>Click the marker again</source>
+        <translation>Rifai il clic sul marcatore</translation>
+    </message>
+    <message>
         <source>Correct labels</source>
         <translation>Correggi le etichette</translation>
+    </message>
+    <message>
+        <source>Use that spot</source>
+        <translation>Usa quel punto</translation>
+    </message>
+    <message>
+        <source>New image</source>
+        <translation>Nuova immagine</translation>
     </message>
     <message>
         <source>Start anyway (&amp;uncertain)</source>

@@ -127,7 +127,7 @@ def test_whole_journey_by_mouse(
     wait_for_still_hand(qtbot, desktop)
     click(qtbot, journey.markers.screen.primary_button)
     click_discs(qtbot, desktop, take)
-    assert journey.markers.screen.guidance.verdict_panel.states()[0] == "good"
+    assert journey.markers.screen.guidance.verdict_panel.lines[0][0].state == "good"
     click(qtbot, journey.markers.screen.primary_button)
     wait_for_place(qtbot, desktop.controller, "live")
     assert desktop.shell.banner.text == f"This is a simulated hand, not {name}. It is excluded from analysis."

@@ -41,7 +41,7 @@ def test_whole_hand_from_set_up_to_session_file(
     click(qtbot, journey.exercise.screen.primary_button)  # the practice patient's camera is ready: it opens at once
     wait_for_still_hand(qtbot, desktop)
     click(qtbot, markers.primary_button)
-    assert markers.labels.order == HAND21.markers
+    assert markers.labels.protocol.markers == HAND21.markers
     wait_until(qtbot, lambda: bool(markers.labels and markers.labels.proposals))
     assert not markers.labels.open_markers
     qtbot.keyClick(markers.picture, Qt.Key.Key_Return)  # the names proposed are right

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import os
-import queue
 import shutil
 import subprocess
 import sys
-import threading
 import time
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
 
 import h5py
@@ -53,41 +50,25 @@ def display(tmp_path: Path) -> Iterator[str]:
 class Person:
     """Sees what the application says it shows, and uses the keyboard and the mouse of the display."""
 
-    def __init__(self, display: str, take: Path, data: Path) -> None:
+    def __init__(self, display: str, take: Path, folder: Path) -> None:
         self._environment = {**os.environ, "DISPLAY": display, "QT_QPA_PLATFORM": "xcb"}
-        command = [sys.executable, "-m", "tests.journeys.window_app", str(take), str(data)]
-        self.process = subprocess.Popen(
-            command, cwd=ROOT, env=self._environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-        )
-        self._lines: queue.Queue[str] = queue.Queue()
-        self._threads = [threading.Thread(target=self._read), threading.Thread(target=self._read_faults)]
-        self.faults = ""
-        for thread in self._threads:
-            thread.start()
+        self._said, self.faults, self._seen = folder / "said", folder / "faults", 0
+        command = [sys.executable, "-m", "tests.journeys.window_app", str(take), str(folder / "data")]
+        with self._said.open("w") as said, self.faults.open("w") as faults:
+            self.process = subprocess.Popen(command, cwd=ROOT, env=self._environment, stdout=said, stderr=faults)
 
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self._lines.put(line.strip())
-
-    def _read_faults(self) -> None:
-        self.faults = self.process.stderr.read()
-
-    def sees(self, wanted: str) -> str:
-        """Wait for a line that begins so; a fault told meanwhile fails the test."""
-        return self.sees_all(wanted)[-1]
-
-    def sees_all(self, wanted: str) -> list[str]:
-        """The lines up to the wanted one."""
-        lines: list[str] = []
-        end_s = time.monotonic() + PATIENCE_S
-        while not (lines and lines[-1].startswith(wanted)):
-            with suppress(queue.Empty):
-                lines.append(self._lines.get(timeout=max(0.0, end_s - time.monotonic())))
-                assert not lines[-1].startswith("fault"), lines[-1]
-                continue
-            raise AssertionError(f"never saw “{wanted}” after {lines}; {self.faults}")
-        return lines
+    def sees(self, wanted: str) -> list[str]:
+        """The next lines up to one that begins so; a fault told meanwhile fails the test."""
+        end_s, lines = time.monotonic() + PATIENCE_S, list[str]()
+        while time.monotonic() < end_s:
+            lines = self._said.read_text().split("\n")[self._seen : -1]
+            assert not any(line.startswith("fault") for line in lines), lines
+            for number, line in enumerate(lines, 1):
+                if line.startswith(wanted):
+                    self._seen += number
+                    return lines[:number]
+            time.sleep(0.05)
+        raise AssertionError(f"never saw “{wanted}” after {lines}; {self.faults.read_text()}")
 
     def use(self, *arguments: str) -> None:
         """One xdotool command."""
@@ -96,35 +77,13 @@ class Person:
     def press(self, *keys: str) -> None:
         self.use("key", "--delay", "30", *keys)
 
-    def click(self, x: int, y: int) -> None:
-        self.use("mousemove", "--sync", str(x), str(y), "click", "1")
-
-    def leave(self) -> int:
-        """End the program as a log-out does (no window manager is here whose cross could be clicked)."""
-        self.process.terminate()
-        return self._end()
-
-    def _end(self) -> int:
-        code = self.process.wait(PATIENCE_S)
-        for thread in self._threads:
-            thread.join(PATIENCE_S)
-        for pipe in (self.process.stdout, self.process.stderr):
-            if pipe is not None:
-                pipe.close()
-        return code
-
-    def kill(self) -> None:
-        """Whatever happened, nothing is left."""
-        if self.process.poll() is None:
-            self.process.kill()
-        self._end()
-
 
 @pytest.fixture
 def person(display: str, take: Path, tmp_path: Path) -> Iterator[Person]:
-    person = Person(display, take, tmp_path / "data")
+    person = Person(display, take, tmp_path)
     yield person
-    person.kill()
+    person.process.kill()  # whatever happened, nothing is left
+    person.process.wait(PATIENCE_S)
 
 
 def test_person_measures_in_real_window(person: Person, tmp_path: Path) -> None:
@@ -135,10 +94,10 @@ def test_person_measures_in_real_window(person: Person, tmp_path: Path) -> None:
     person.press("Return")
     person.sees("place markers")
     person.press("space")
-    discs = [line.split()[1:] for line in person.sees_all("discs told") if line.startswith("disc ")]
+    discs = [line.split()[1:] for line in person.sees("discs told") if line.startswith("disc ")]
     assert len(discs) == 6
-    for x, y in discs:
-        person.click(int(x), int(y))
+    for place in discs:
+        person.use("mousemove", "--sync", *place, "click", "1")
     person.sees("ready to start")
     person.press("Return")
     person.sees("place live")
@@ -150,7 +109,7 @@ def test_person_measures_in_real_window(person: Person, tmp_path: Path) -> None:
     person.sees("repeated")
     time.sleep(HASTY_S)  # an end within the first seconds asks
     person.press("space")
-    session = Path(person.sees("session ").removeprefix("session "))
+    session = Path(person.sees("session ")[-1].removeprefix("session "))
     person.sees("place review")
     person.press("ctrl+p")
     person.sees("place report")
@@ -160,9 +119,10 @@ def test_person_measures_in_real_window(person: Person, tmp_path: Path) -> None:
     person.press("ctrl+a")
     person.use("type", "--delay", "5", str(pdf))
     person.press("Return")
-    assert person.sees("saved ") == f"saved {pdf}"
-    assert person.leave() == 0
-    assert "Traceback" not in person.faults
+    assert person.sees("saved ")[-1] == f"saved {pdf}"
+    person.process.terminate()  # as a log-out does: no window manager is here whose cross could be clicked
+    assert person.process.wait(PATIENCE_S) == 0
+    assert "Traceback" not in person.faults.read_text()
     assert "strap loose" in read_words(pdf)
     with h5py.File(session) as file:
         assert "strap loose" in file["events/text"].asstr()[:].tolist()

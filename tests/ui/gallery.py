@@ -45,8 +45,7 @@ from carpus.ui.screens.by_hand.screen import ManualMeasurementsScreen, ManualRec
 from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
 from carpus.ui.screens.check_card.screen import CheckCardScreen
 from carpus.ui.screens.comparison.screen import ComparisonScreen
-from carpus.ui.screens.correct.flow import difference_words
-from carpus.ui.screens.correct.results_dialog import ResultsDialog
+from carpus.ui.screens.correct.flow import ResultsDialog, difference_words
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from carpus.ui.screens.help.screen import HelpScreen
 from carpus.ui.screens.live.screen import LiveScreen
@@ -63,16 +62,16 @@ from carpus.ui.screens.report.screen import ReportScreen
 from carpus.ui.screens.review.screen import ReviewScreen
 from carpus.ui.screens.sessions.screen import SessionsScreen
 from carpus.ui.screens.settings.retest_dialog import RetestDialog
-from carpus.ui.screens.settings.screen import Preferences, SettingsScreen
+from carpus.ui.screens.settings.screen import SettingsScreen
 from carpus.ui.screens.setup.camera import CameraScreen
 from carpus.ui.screens.setup.exercise import ExerciseScreen
 from carpus.ui.screens.setup.set_dialog import SetDialog
-from carpus.ui.screens.tour.bubble import BubbleView
-from carpus.ui.screens.tour.bubbles import Bubble
+from carpus.ui.screens.tour.bubble import Bubble, BubbleView
 from carpus.ui.screens.welcome.panel import WelcomePanel
-from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog, NoticeStrip
+from carpus.ui.shell.name_display import NameDisplay
+from carpus.ui.shell.view_models import Preferences
 from carpus.ui.words.camera_check import camera_words
 from carpus.ui.words.fault_words import fault_words
 from tests.ui.camera_fakes import board_progress, board_result, card_progress, checked
@@ -739,7 +738,7 @@ class Gallery(GalleryWindow):
         screen.capture_view.show_opened()
         frame, progress = board_progress()
         screen.capture_view.show_progress(progress)
-        screen.capture_view.show_frame(frame.color_rgb)
+        screen.capture_view.frame_view.show_frame(frame.color_rgb)
 
     board_result = _then("_board", lambda screen: screen.show_result(board_result()))
 
@@ -759,7 +758,7 @@ class Gallery(GalleryWindow):
         screen = self._card(CheckStatus(""))
         screen.begin_measuring()
         frame, progress = card_progress()
-        screen.show_frame(frame.color_rgb)
+        screen.frame_view.show_frame(frame.color_rgb)
         screen.show_progress(progress)
 
 

@@ -11,10 +11,9 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import SessionPair, compare_pair
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.table import cell_text
+from carpus.ui.kit.cells import cell_text
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.comparison.screen import ComparisonScreen
-from carpus.ui.screens.comparison.words import difference_table, facts_words, headline, warning_words
+from carpus.ui.screens.comparison.screen import ComparisonScreen, difference_table, facts_words, headline, warning_words
 from carpus.ui.words.fingers import progress_keys
 from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, figures_once, session

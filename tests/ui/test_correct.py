@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core.session.label_checks import Correction
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.correct.marker_edits import MarkerEdits
+from carpus.ui.screens.correct.frame_view import MarkerEdits
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCorrections, FakeSessions, session

@@ -27,21 +27,21 @@ from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import SearchField
 from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.correct.results_dialog import ResultsDialog
+from carpus.ui.screens.correct.flow import ResultsDialog
 from carpus.ui.screens.export.dialog import ExportDialog
-from carpus.ui.screens.live.note_dialogs import NoteDialog, PainDialog
+from carpus.ui.screens.live.controls import NoteDialog, PainDialog
 from carpus.ui.screens.markers.guidance import StartAngleDialog
 from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.records.deletion import DeleteDialog
 from carpus.ui.screens.records.lock import LockScreen, PinDialog
 from carpus.ui.screens.records.record_lists import ListedRecord, LogDialog, RecordsDialog
 from carpus.ui.screens.report.dialogs import HomeDialog, LetterDialog
-from carpus.ui.screens.review.hand_image import HandImageDialog
+from carpus.ui.screens.review.frame_view import HandImageDialog
 from carpus.ui.screens.review.screen import ExclusionDialog
 from carpus.ui.screens.sessions.dialogs import ChoiceDialog, ExcludeDialog
 from carpus.ui.screens.settings.retest_dialog import RetestDialog
 from carpus.ui.screens.setup.set_dialog import SetDialog
-from carpus.ui.shell.camera_session import CameraNameDialog
+from carpus.ui.shell.camera_name_dialog import CameraNameDialog
 from carpus.ui.shell.messages import Answer, MessageDialog
 from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY
@@ -91,7 +91,7 @@ DIALOGS: dict[type[Dialog], Callable[[QWidget, Theme], Opened]] = {
     ResultsDialog: _opened(ResultsDialog, ResultsDialog.open, ""),
     ExportDialog: _opened(ExportDialog, ExportDialog.request_formats, "Choose folder…"),
     NoteDialog: _opened(NoteDialog, NoteDialog.open_note, "Save note"),
-    PainDialog: _opened(PainDialog, PainDialog.open_pain, "Close"),
+    PainDialog: _opened(PainDialog, PainDialog.open, "Close"),
     StartAngleDialog: _opened(StartAngleDialog, StartAngleDialog.open_angles, "Use these angles", np.zeros(3)),
     DeleteDialog: _opened(
         DeleteDialog, DeleteDialog.show_plan, "Archive instead", ERASED_SESSION, 10, LAST_BACKUP, TODAY

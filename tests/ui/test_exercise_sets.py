@@ -24,7 +24,7 @@ from carpus.core.records.values import Patient
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.movement_guide import ExerciseSnapshot, GuideScene
-from carpus.ui.screens.live.course import STOP_DELAY_S, CourseRunner
+from carpus.ui.screens.live.flow import STOP_DELAY_S, CourseRunner
 from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.patient.view_controller import PatientViewController
 from tests.ui.contexts import RecordingMessages, make_context
@@ -88,11 +88,11 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     patient = PatientViewController(
         make_context(theme, live, RecordingMessages(), Background(), patient_sound=False), live.set_patient_view
     )
-    live.patient_view_requested.connect(patient.toggle)
     live.snapshot_taken.connect(patient.update)
     measuring = FakeMeasuring(FakeFeed(seconds=2.0))
     now = SimpleNamespace(set_up=start_set(OWN, set_up(), {}), source=SimpleNamespace(measuring=measuring))
-    run = CourseRunner(live, live, patient, now)  # type: ignore[arg-type]
+    opened: list[bool] = []
+    run = CourseRunner(live, live, patient, now, lambda: opened.append(True))  # type: ignore[arg-type]
     stops: list[float] = []
     live.recording.stop = lambda: stops.append(1.0)  # type: ignore[method-assign]
     run.start_part(now.set_up)
@@ -106,8 +106,8 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     for count, at_s in ((1, 1.0), (2, 1.1), (2, STOP_DELAY_S + 0.1)):
         assert not found(count, at_s), "what looked like a repetition was none"
     assert found(2, STOP_DELAY_S + 1.2)
-    with qtbot.waitSignal(run.screen_requested):
-        assert run.advance()
+    assert run.advance()
+    assert opened
     assert measuring.chosen.exercise.id == "FREE"
     patient.toggle()
     qtbot.addWidget(patient.window)

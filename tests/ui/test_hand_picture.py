@@ -25,7 +25,7 @@ from carpus.core.session.values import Session
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.review.flow import ReviewFlow
-from carpus.ui.screens.review.hand_image import HandImage, build_hand_image
+from carpus.ui.screens.review.frame_view import HandImage, build_hand_image
 from tests.ui.conftest import Reviewing
 from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import FakeSessions, session

@@ -22,10 +22,8 @@ from carpus.core.model.types import Detections, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import StartMode
 from carpus.ui.charts.history import History
 from carpus.ui.screens.live import recording as live_recording
-from carpus.ui.screens.live.marker_doubt import find_doubt, make_doubt_light
-from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, StartTrigger
-from carpus.ui.screens.live.repetition_counter import RepetitionCounter
-from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, wrist_light
+from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, RepetitionCounter, StartTrigger
+from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, hand_light, marker_light
 from tests.moments import with_moment
 from tests.ui.conftest import Live
 from tests.ui.fakes import FakeFeed, LateFeed
@@ -144,14 +142,14 @@ def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Liv
     kept: list[int] = []
     screen.pain_dialog.pain_entered.connect(kept.append)
     for typed, score in (("10", 10), ("7", 7), ("13", 3), ("0", 0)):
-        screen.pain_dialog.open_pain()
+        screen.pain_dialog.open()
         for digit in typed:
             qtbot.keyClick(screen.focusWidget(), digit)
         assert kept[-1] == score
-    screen.pain_dialog.open_pain()
+    screen.pain_dialog.open()
     qtbot.keyClick(screen.focusWidget(), "1")
     qtbot.waitUntil(lambda: kept[-1] == 1)
-    screen.pain_dialog.open_pain()
+    screen.pain_dialog.open()
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Escape)
     assert not screen.pain_dialog.isVisible()
     assert kept == [10, 7, 3, 0, 1]
@@ -191,15 +189,13 @@ def test_live_free_blob_is_offered_for_an_occluded_marker() -> None:
     beside = hidden.marker_predicted_px[3] + [0.0, 15.0]
     pixel = np.vstack((measured[np.isfinite(measured[:, 0])], beside))
     spots = Detections(pixel, *(np.ones((4, len(pixel)))))
-    doubt = find_doubt(replace(hidden, detections=spots), MARKERS, camera)
-    assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", True, True)
-    assert make_doubt_light(doubt).state == "Another blue spot is here"
-    assert "middle finger MCP" in make_doubt_light(doubt).remedy
+    light = marker_light(replace(hidden, detections=spots), MARKERS, camera)
+    assert (light.state, light.remedy) == ("Another blue spot is here", "Is it the middle finger MCP?")
     far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
-    assert find_doubt(replace(hidden, detections=far), MARKERS, camera) is None
+    assert marker_light(replace(hidden, detections=far), MARKERS, camera).rank == "good"
     questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
-    doubt = find_doubt(replace(questioned, detections=Detections.none()), MARKERS, camera)
-    assert (doubt.marker, doubt.is_hidden, doubt.has_other) == ("MCP3", False, False)
+    light = marker_light(replace(questioned, detections=Detections.none()), MARKERS, camera)
+    assert (light.state, light.remedy) == ("Uncertain", "Check the middle finger MCP")
 
 
 def test_live_lag_shows_the_newest_frame_and_the_delay(live: Live) -> None:
@@ -409,12 +405,12 @@ def test_live_passive_movement_is_not_counted() -> None:
 
 
 def test_light_names_one_hidden_marker_and_its_remedy() -> None:
-    frame = FakeFeed(hidden=[(0.0, 99.0, "CMC1")]).frames[10]
-    lamp = wrist_light(frame, MARKERS, False)
-    assert lamp.state == "Thumb CMC occluded"
-    assert lamp.remedy == "Turn the thumb side up"
-    assert wrist_light(replace(frame, status=TrackStatus.LOST), MARKERS, False).rank == "bad"
-    assert wrist_light(FakeFeed().frames[10], MARKERS, True).state == "Forearm moved"
+    frame = FakeFeed().frames[10]
+    seen = dict.fromkeys(MARKERS, "seen")
+    lamp = hand_light(frame, seen | {"CMC1": "hidden"})
+    assert (lamp.state, lamp.remedy) == ("Thumb CMC occluded", "Turn the thumb side up")
+    assert hand_light(frame, seen, has_forearm_moved=True).state == "Forearm moved"
+    assert hand_light(frame, seen).remedy == "All 6 markers visible"
 
 
 def test_live_countdown_after_the_key_ignores_the_hand() -> None:

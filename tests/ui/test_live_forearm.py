@@ -8,7 +8,7 @@ import pytest
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.ui.charts.history import History
-from carpus.ui.screens.live.repetition_counter import RepetitionCounter
+from carpus.ui.screens.live.recording import RepetitionCounter
 from tests.ui.fakes import simulated, tracked_frames
 
 

@@ -9,8 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.ui.kit.theme import Theme
-from carpus.ui.screens.tour.bubble import BubbleView
-from carpus.ui.screens.tour.bubbles import PARTS, PLACES, Bubble, LabelStage, TourState, bubble_words, find_bubble
+from carpus.ui.screens.tour.bubble import (
+    PARTS,
+    PLACES,
+    Bubble,
+    BubbleView,
+    LabelStage,
+    TourState,
+    bubble_words,
+    find_bubble,
+)
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")

@@ -114,7 +114,7 @@ class CameraCalibrationFlow(CameraFlowBase):
             now = self._newest_progress.peek()
             if now is not None and now is not showing.progress:
                 showing.show_progress(now)
-            showing.show_frame(frame.color_rgb)
+            showing.frame_view.show_frame(frame.color_rgb)
 
     # --- the result ---------------------------------------------------------------------------------------
     def _calibrate(self) -> None:

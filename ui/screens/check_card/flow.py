@@ -91,7 +91,7 @@ class CheckCardFlow(CameraFlowBase):
         self._identify_camera(session)
 
     def _on_frame(self, frame: Frame) -> None:
-        self.screen.show_frame(frame.color_rgb)
+        self.screen.frame_view.show_frame(frame.color_rgb)
         now = self._newest_progress.peek()
         if now is not None and now is not self.screen.progress:
             self.screen.show_progress(now)

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.core.calibration.card.card import CHECK_S, DISCS
 from carpus.core.model.rounding import round_half_away
-from carpus.core.model.types import ByteImage
 from carpus.ui.kit.button import ENTER_KEY, Button
 from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.icons import State
@@ -20,7 +19,7 @@ from carpus.ui.kit.text import REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, ON_PICTURE_PROPOSED, Theme
 from carpus.ui.picture.photo import paint_label
 from carpus.ui.picture.view import FrameView
-from carpus.ui.shell.camera_session import CameraNameDialog
+from carpus.ui.shell.camera_name_dialog import CameraNameDialog
 from carpus.ui.words.camera_check import CardProgress, card_hint, check_words
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
@@ -124,9 +123,6 @@ class CheckCardScreen(FittedWidget):
         self.progress = None
         if self.isVisible():
             self.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
-
-    def show_frame(self, color_rgb: ByteImage) -> None:
-        self.frame_view.show_frame(color_rgb)
 
     def show_no_frames(self, words: str) -> None:
         self.frame_view.clear(words)

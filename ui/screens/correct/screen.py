@@ -24,8 +24,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Icon, Stat
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.picture.playback_controls import PlaybackControls, TimeSlider, clock_words
 from carpus.ui.picture.session_frames import RowReader, blank_frame
-from carpus.ui.screens.correct.frame_view import CorrectionFrameView
-from carpus.ui.screens.correct.marker_edits import MarkerEdits
+from carpus.ui.screens.correct.frame_view import CorrectionFrameView, MarkerEdits
 from carpus.ui.words.marker_words import marker_title
 
 if TYPE_CHECKING:
@@ -284,7 +283,6 @@ class CorrectionScreen(FittedWidget):
                 is_visible=seen,
                 is_changed=marker in changed,
                 is_selected=marker == self.current_marker,
-                large_mm=LARGE_RESIDUAL_MM,
             )
         self.hide_button.setEnabled(bool(self.current_marker))
         self.frame_view.current_marker = self.current_marker
@@ -303,7 +301,6 @@ class CorrectionScreen(FittedWidget):
 
 
 ROW_PX = 34
-ARROW_KEYS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 
 
 class MarkerRow(QPushButton):
@@ -339,7 +336,6 @@ class MarkerRow(QPushButton):
         is_visible: bool,
         is_changed: bool,
         is_selected: bool,
-        large_mm: float,
     ) -> None:
         """Show the distance from the expected position, now and before the change; NaN if unknown."""
         now = (
@@ -351,7 +347,7 @@ class MarkerRow(QPushButton):
             now = self.tr("occluded")
         if is_changed and math.isfinite(original_mm):
             now = self.tr("{now}, was {size} mm").format(now=now, size=format_rounded(original_mm))
-        far = is_visible and math.isfinite(residual_mm) and residual_mm > large_mm
+        far = is_visible and math.isfinite(residual_mm) and residual_mm > LARGE_RESIDUAL_MM
         self._sign.show_icon("warn" if far else "predicted" if is_changed else "partly" if not is_visible else "good")
         self._value.setText(now)
         self._label.set_style("text", SEMIBOLD if is_selected else MEDIUM)
@@ -366,7 +362,7 @@ class MarkerRow(QPushButton):
         return QSize(200, self._theme.px(ROW_PX))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() in ARROW_KEYS and self.isChecked():
+        if event.key() in ARROWS and self.isChecked():
             self.nudged.emit(event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
         elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             event.ignore()  # Enter tracks again, wherever the keyboard is

@@ -1,4 +1,4 @@
-"""Pages of the guide in resources/guide, and their HTML in the theme's colours."""
+"""Pages of the guide in resources/guide: their HTML in the theme's colours, and cards to print of two of them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,17 @@ import re
 from functools import lru_cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from pathlib import Path
 
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF, QUrl
+from PySide6.QtGui import QPageLayout, QPageSize, QPdfWriter, QTextDocument
+
+from carpus.core.formats.output_files import open_new_file
 from carpus.core.model.phrase import LANGUAGES
 from carpus.ui.kit import language
 from carpus.ui.kit.fonts import TEXT_FAMILY
 from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr
 
 DEFAULT_LANGUAGE = "en"
 """Language of the guide where it is not translated."""
@@ -53,16 +59,6 @@ def _folder(code: str) -> Traversable:
 def page_title(page: str) -> str:
     """Return the first line of a page."""
     return load_page(page).splitlines()[0].removeprefix("# ")
-
-
-def page_pictures(page: str) -> list[str]:
-    """Return the names of the pictures of a page."""
-    return [name for _, name in _PICTURE.findall(load_page(page))]
-
-
-def page_links(page: str) -> list[str]:
-    """Return the pages that a page links to."""
-    return [name for _, name in _LINK.findall(load_page(page))]
 
 
 def page_html(page: str, theme: Theme, width_px: int) -> str:
@@ -125,3 +121,39 @@ def _apply_style(body: str, theme: Theme) -> str:
         f"a {{ color: {tokens.accent}; font-weight: 600; text-decoration: none; }}"
     )
     return f"<html><head><style>{style}</style></head><body>{body}</body></html>"
+
+
+CARDS_FILE_NAME = "carpus-cards.pdf"
+CARD_PAGES = ("discs", "camera")  # markers, and camera, arm and light
+MARGIN_MM, DPI, PICTURE_PX = 15.0, 96, 540
+# Of the size on the screen: the first at which each page of the guide is one of paper.
+SCALES = (0.7, 0.65, 0.6, 0.55, 0.5)
+
+
+def write_cards(path: Path) -> None:
+    """Write both pages as a PDF of A4 pages.
+
+    Raises :class:`DiskFull` or :class:`OutputNotWritable`; then an old file stays.
+    """
+    store = QByteArray()
+    buffer = QBuffer(store)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = QPdfWriter(buffer)
+    writer.setResolution(DPI)
+    writer.setCreator("Carpus")
+    writer.setTitle(tr("Carpus: markers and set-up"))
+    margins = QMarginsF(MARGIN_MM, MARGIN_MM, MARGIN_MM, MARGIN_MM)
+    a4, upright = QPageSize(QPageSize.PageSizeId.A4), QPageLayout.Orientation.Portrait
+    writer.setPageLayout(QPageLayout(a4, upright, margins, QPageLayout.Unit.Millimeter))
+    document = QTextDocument()
+    document.setBaseUrl(QUrl.fromLocalFile(picture_path("") + "/"))
+    bodies = [page_html(page, Theme("light"), PICTURE_PX) for page in CARD_PAGES]
+    document.setHtml(bodies[0] + "<p style='page-break-after: always'></p>" + bodies[1])
+    for scale in SCALES:
+        document.setPageSize(QSizeF(writer.width(), writer.height()) / scale)
+        if document.pageCount() == len(CARD_PAGES):
+            break
+    document.print_(writer)
+    buffer.close()
+    with open_new_file(path, overwrite=True) as file:
+        file.write(store.data())

@@ -16,18 +16,10 @@ from carpus.ui.kit.keys import KEYS, action_words
 from carpus.ui.kit.layouts import column_layout, row_layout
 from carpus.ui.kit.text import Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
-from carpus.ui.screens.help import cards, guide
+from carpus.ui.screens.help import guide
 from carpus.ui.words import terms
 
 PICTURE_PX = 720
-
-
-def actions_by_key() -> dict[str, list[str]]:
-    """Return the actions of each key; screens may use a key differently."""
-    found: dict[str, list[str]] = {}
-    for name, key in KEYS.items():
-        found.setdefault(key, []).append(action_words(name))
-    return found
 
 
 class HelpScreen(QWidget):
@@ -82,7 +74,10 @@ class HelpScreen(QWidget):
             self.index.setCurrentRow(row)  # comes back here
             return
         if name == guide.KEYS_PAGE:
-            rows = [(key, "\n".join(words)) for key, words in actions_by_key().items()]
+            actions: dict[str, list[str]] = {}  # screens may use a key differently
+            for action, key in KEYS.items():
+                actions.setdefault(key, []).append(action_words(action))
+            rows = [(key, "\n".join(words)) for key, words in actions.items()]
             self.page_view.show_html(guide.keys_html(self.tr("Keys"), rows, self._theme))
         else:
             self.page_view.show_html(guide.page_html(name, self._theme, self._picture_px()))
@@ -95,16 +90,13 @@ class HelpScreen(QWidget):
             self._show_again()
 
     def _choose_cards_file(self) -> None:
-        start = str(Path(self.start_folder) / cards.FILE_NAME)
+        start = str(Path(self.start_folder) / guide.CARDS_FILE_NAME)
         path, _ = QFileDialog.getSaveFileName(self, self.tr("Save the cards"), start, "PDF (*.pdf)")
         if path:
-            self.save_cards(path)
-
-    def save_cards(self, path: str) -> None:
-        try:
-            cards.write_cards(Path(path))
-        except CarpusFault as fault:
-            self.fault_raised.emit(fault)
+            try:
+                guide.write_cards(Path(path))
+            except CarpusFault as fault:
+                self.fault_raised.emit(fault)
 
 
 class _PageView(QTextBrowser):

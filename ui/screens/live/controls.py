@@ -1,20 +1,20 @@
-"""The bar below the live screen: status light, notes, pause, and the recording button."""
+"""The bar below the live screen: status light, notes, pause, and the recording button; dialogs for note and pain."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.records.session_setup import next_part
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Surface
-from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD, font
-from carpus.ui.kit.icons import paint_state
-from carpus.ui.kit.layouts import fill, row_layout
+from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.layouts import STRETCH, fill, row_layout
+from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.screens.live.recording import RecordingController
-from carpus.ui.screens.live.status_light import StatusLight
+from carpus.ui.screens.live.status_light import StatusLightView
 
 
 class RecordingControls(Surface):
@@ -89,83 +89,110 @@ class RecordingControls(Surface):
         self.main_button.set_label(words, icon="square" if runs else "", hint=hint)
 
 
-HEIGHT_PX = 72
-BANDS = {
-    "good": ("good_soft", "good", "text", "good", "good_soft"),
-    "warn": ("band_warn", "on_band_warn", "on_band_warn", "on_band_warn", "band_warn"),
-    "bad": ("band_bad", "on_band_bad", "on_band_bad", "on_band_bad", "band_bad"),
-    "idle": ("sunken", "text2", "text2", "border", "sunken"),
-}
-"""Colours by rank: background, state, remedy, icon body, icon sign."""
-WRAP_FLAG = int(Qt.TextFlag.TextWordWrap)
-TEXT_SHARES = [0.95 - 0.05 * step for step in range(10)]
+MAX_PAIN = 10
+SECOND_DIGIT_MS = 700
+"""After a 1, a 0 may follow."""
 
 
-class StatusLightView(QWidget):
-    """Paints a :class:`StatusLight`."""
+class NoteDialog(Dialog):
+    """One line of text, stored with the time of the frame.
 
-    def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
-        self.status_light = StatusLight("idle", "", "")
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        theme.changed.connect(self.updateGeometry)
+    ``passive_changed`` carries True if somebody else moves the hand from now on.
+    """
 
-    def show_light(self, status_light: StatusLight) -> None:
-        """Change the light; screen readers get both lines."""
-        if status_light != self.status_light:
-            self.status_light = status_light
-            self.setAccessibleName(f"{status_light.state}. {status_light.remedy}")
-            self.update()
+    note_entered = Signal(str)
+    passive_changed = Signal(bool)
 
-    def sizeHint(self) -> QSize:
-        return QSize(620, self._theme.px(HEIGHT_PX))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        color, scale = self._theme.color, self._theme.text_scale
-        ground, word, remedy, body, sign = BANDS[self.status_light.rank]
-        painter.fillRect(self.rect(), color(ground))
-        size = 36 * scale
-        icon = QRectF(34, (self.height() - size) / 2, size, size)
-        paint_state(
-            painter,
-            "open" if self.status_light.rank == "idle" else self.status_light.rank,
-            icon,
-            color(body),
-            color(sign),
-        )
-        left = icon.right() + 18
-        room = QRectF(left, 4, self.width() - left - 12, self.height() - 8)
-        for (text, face, place), ink in zip(self._place_lines(room), (word, remedy), strict=True):
-            painter.setFont(face)
-            painter.setPen(color(ink))
-            painter.drawText(place, WRAP_FLAG, text)
-
-    def _place_lines(self, room: QRectF) -> list[tuple[str, QFont, QRectF]]:
-        """Place state and remedy on one line if they fit, else one above the other, shrunk to fit."""
-        (state, large, _), (remedy, small, _) = above = self._stack_lines(room, 1.0)
-        upper, lower = QFontMetricsF(large), QFontMetricsF(small)
-        beside = upper.horizontalAdvance(state) + 18
-        if beside + lower.horizontalAdvance(remedy) <= room.width():
-            baseline = room.center().y() + 10 * self._theme.text_scale
-            left = room.translated(0, baseline - upper.ascent() - room.top())
-            return [(state, large, left), (remedy, small, left.translated(beside, upper.ascent() - lower.ascent()))]
-        for share in TEXT_SHARES:
-            if all(room.contains(place) for *_, place in above):
-                break
-            above = self._stack_lines(room, share)
-        return above
-
-    def _stack_lines(self, room: QRectF, share: float) -> list[tuple[str, QFont, QRectF]]:
-        """Place both lines one above the other in the middle, at ``share`` of their size."""
-        placed, size = [], share * self._theme.text_scale
-        for text, face in (
-            (self.status_light.state, font(28 * size, SEMIBOLD)),
-            (self.status_light.remedy, font(20 * size, MEDIUM)),
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 720, is_low=True)
+        self.line = QLineEdit(placeholderText=self.tr("What happened? Enter no names."))
+        self.line.setAccessibleName(self.tr("Note"))
+        keep = Button(theme, self.tr("Save note"), "primary", height_px=44)
+        close = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"))
+        self.card.body.addWidget(Text(theme, self.tr("Note at this moment"), 16, SEMIBOLD))
+        self.card.body.addLayout(row_layout((self.line, 1), close, keep))
+        quick = QHBoxLayout()
+        for words in (
+            self.tr("Stopped for pain"),
+            self.tr("Strap loosened"),
+            self.tr("Rest"),
         ):
-            placed.append((text, face, QFontMetricsF(face).boundingRect(room, WRAP_FLAG, text)))
-        (*_, upper), (*_, lower) = placed
-        upper.moveTop(room.center().y() - (upper.height() + lower.height()) / 2)
-        lower.moveTop(upper.bottom())
-        return placed
+            button = Button(theme, words, "plain", height_px=36)
+            button.clicked.connect(lambda _=False, words=words: self._enter(words))
+            quick.addWidget(button)
+        self._is_passive = False
+        self.passive_button = Button(theme, "", "plain", height_px=36)
+        self.passive_button.clicked.connect(self._toggle_passive)
+        fill(quick, self.passive_button, STRETCH)
+        self.card.body.addLayout(quick)
+        keep.clicked.connect(lambda: self._enter(self.line.text()))
+        close.clicked.connect(self.close_dialog)
+        self.set_default(keep)
+
+    def open_note(self, *, passive: bool = False) -> None:
+        """Open empty; ``passive`` tells whether somebody else moves the hand now."""
+        self._is_passive = passive
+        self.passive_button.set_label(self.tr("Active from here on") if passive else self.tr("Passive from here on"))
+        self.line.clear()
+        self.open(self.line)
+
+    def _enter(self, words: str) -> None:
+        self.close_dialog()
+        if words.strip():
+            self.note_entered.emit(words.strip())
+
+    def _toggle_passive(self) -> None:
+        self.close_dialog()
+        self.passive_changed.emit(not self._is_passive)
+
+
+class PainDialog(Dialog):
+    """Pain from 0 to 10 by click, digit, or arrows and Enter."""
+
+    pain_entered = Signal(int)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 720, is_low=True)
+        self.card.body.addWidget(Text(theme, self.tr("Pain now, 0 (none) to 10 (worst)"), 16, SEMIBOLD))
+        row = row_layout(gap=6)
+        self.buttons: list[Button] = []
+        for score in range(MAX_PAIN + 1):
+            button = Button(theme, str(score), "plain", height_px=48)
+            button.clicked.connect(lambda _=False, score=score: self._enter(score))
+            row.addWidget(button)
+            self.buttons.append(button)
+        self.card.body.addLayout(row)
+        below = QHBoxLayout()
+        advice = self.tr(
+            "If pain is 5 or more, or has risen by 2, stop the exercise. Keys: 0 to 9. For 10, press 1, then 0."
+        )
+        below.addWidget(Text(theme, advice, 14, token="text2", wrap=True), 1)
+        close = Button(theme, self.tr("Close"), "quiet", height_px=36)
+        close.clicked.connect(self.close_dialog)
+        self.set_default(close)
+        below.addWidget(close)
+        self.card.body.addLayout(below)
+        self._digit_timer = QTimer(self, singleShot=True, interval=SECOND_DIGIT_MS)
+        self._digit_timer.timeout.connect(lambda: self._enter(1))
+        self.closed.connect(self._digit_timer.stop)
+
+    def _enter(self, score: int) -> None:
+        self.close_dialog()
+        self.pain_entered.emit(score)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        step = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(Qt.Key(event.key()), 0)
+        digit = event.text() if event.text() in "0123456789" else ""
+        if digit and self._digit_timer.isActive():
+            self._enter(MAX_PAIN if digit == "0" else int(digit))
+        elif digit == "1":
+            self.buttons[1].setFocus(Qt.FocusReason.TabFocusReason)
+            self._digit_timer.start()
+        elif digit:
+            self._enter(int(digit))
+        elif step:
+            now = self.window().focusWidget()
+            place = self.buttons.index(now) if now in self.buttons else -1 if step > 0 else 0
+            self.buttons[(place + step) % len(self.buttons)].setFocus(Qt.FocusReason.TabFocusReason)
+        else:
+            super().keyPressEvent(event)

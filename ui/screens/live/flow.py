@@ -1,16 +1,24 @@
-"""The flow while measuring: events of the source, the end of a recording, questions before it."""
+"""The flow while measuring: events of the source, the end of a recording, questions before it, a running set."""
 
 from __future__ import annotations
 
 import logging
+import math
+from collections.abc import Callable
+
+from PySide6.QtCore import QObject, QTimer
 
 from carpus.core.model.errors import CameraLost
 from carpus.core.model.fault_text import MessageText
 from carpus.core.pipeline.live_values import LiveEvent
+from carpus.core.records.session_setup import SessionSetup, next_part
 from carpus.ui.kit import numbers
-from carpus.ui.screens.live.course import CourseRunner
+from carpus.ui.kit.translate import translate_phrase
+from carpus.ui.picture.movement_guide import ExerciseSnapshot
 from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.patient.view_controller import PatientViewController
+from carpus.ui.screens.setup.set_dialog import part_words
+from carpus.ui.shell.current_selection import CurrentSelection
 from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.shell.messages import Answer
 
@@ -26,16 +34,29 @@ class LiveFlow(Flow):
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, LiveScreen(context.theme, context.background))
         live, recording, self._must_stop = self.screen, self.screen.recording, False
+        going_on = self.tr("Recording continues while you choose. Everything is saved.")
+        self._early_stop_question = MessageText(
+            self.tr("The recording has only just begun."), going_on, self.tr("Continue measuring or stop now?")
+        )
+        self._stop_question = MessageText(
+            self.tr("Stop recording?"),
+            going_on,
+            self.tr("Continue measuring, or stop: the session is saved and opens in the review."),
+        )
+        self._closing_question = MessageText(
+            self.tr("A recording is running."),
+            self.tr("Everything measured so far is saved, whatever you choose."),
+            self.tr("Continue measuring, or stop: the session is saved and Carpus closes."),
+        )
         self.patient_view = PatientViewController(context, live.set_patient_view)
-        live.patient_view_requested.connect(self.patient_view.toggle)
+        live.patient_view_button.clicked.connect(self.patient_view.toggle)
         live.snapshot_taken.connect(self.patient_view.update)
-        self.course = CourseRunner(self, live, self.patient_view, context.current)
-        self.course.screen_requested.connect(self.open)
+        self.course = CourseRunner(self, live, self.patient_view, context.current, self.open)
         live.event_received.connect(self.handle_event)
         recording.stopping.connect(lambda: context.navigator.flow("review"))  # made while the recording is stored
         recording.stopped.connect(self._on_stopped)
         recording.stop_failed.connect(self._on_stop_failed)
-        recording.early_stop_requested.connect(self._confirm_early_stop)
+        recording.early_stop_requested.connect(lambda: self._confirm_stop(self._early_stop_question))
         context.navigator.screen_changing.connect(self._on_leaving)
         context.opener.closing.connect(self._on_source_closing)
 
@@ -60,7 +81,7 @@ class LiveFlow(Flow):
         if not self.is_recording:
             self.context.navigator.open_screen("camera")
         elif not self.screen.recording.is_storing:
-            self._confirm_stop(self._stop_question())
+            self._confirm_stop(self._stop_question)
 
     def _on_leaving(self, place: str) -> None:
         """Let messages cover only the stage here, so that the tracking light stays visible."""
@@ -110,9 +131,8 @@ class LiveFlow(Flow):
     # --- how it ends --------------------------------------------------------------------------------------
     def _on_stopped(self, session_id: str) -> None:
         now, way = self.context.current, self.context.navigator
-        self.context.messages.withdraw_question(self._closing_question())
-        self.context.messages.withdraw_question(self._early_stop_question())
-        self.context.messages.withdraw_question(self._stop_question())
+        for question in (self._closing_question, self._early_stop_question, self._stop_question):
+            self.context.messages.withdraw_question(question)
         self.screen.close_source()  # the source goes on, for another set
         in_course = now.set_up is not None and now.set_up.set_run is not None
         if self.course.advance():
@@ -134,9 +154,6 @@ class LiveFlow(Flow):
             ),
         )
 
-    def _confirm_early_stop(self) -> None:
-        self._confirm_stop(self._early_stop_question())
-
     def _confirm_stop(self, question: MessageText) -> None:
         self.context.messages.show_question(
             question,
@@ -146,20 +163,6 @@ class LiveFlow(Flow):
             ),
         )
 
-    def _early_stop_question(self) -> MessageText:
-        return MessageText(
-            self.tr("The recording has only just begun."),
-            self.tr("Recording continues while you choose. Everything is saved."),
-            self.tr("Continue measuring or stop now?"),
-        )
-
-    def _stop_question(self) -> MessageText:
-        return MessageText(
-            self.tr("Stop recording?"),
-            self.tr("Recording continues while you choose. Everything is saved."),
-            self.tr("Continue measuring, or stop: the session is saved and opens in the review."),
-        )
-
     # --- the window closes --------------------------------------------------------------------------------
     def prompt_before_close(self) -> bool:
         """Ask whether closing the window shall end a running recording."""
@@ -167,7 +170,7 @@ class LiveFlow(Flow):
             return False
         if not self.context.messages.is_busy:
             self.context.messages.show_question(
-                self._closing_question(),
+                self._closing_question,
                 (
                     Answer(
                         self.tr("Stop, save and close"), self.context.window.close_without_prompt, "S", is_risky=True
@@ -176,13 +179,6 @@ class LiveFlow(Flow):
                 ),
             )
         return True
-
-    def _closing_question(self) -> MessageText:
-        return MessageText(
-            self.tr("A recording is running."),
-            self.tr("Everything measured so far is saved, whatever you choose."),
-            self.tr("Continue measuring, or stop: the session is saved and Carpus closes."),
-        )
 
     def close(self) -> None:
         """Let no screen open any more; :meth:`finish` stops a running recording."""
@@ -203,3 +199,109 @@ class LiveFlow(Flow):
             except Exception as fault:
                 log.warning("the recording that ran at the end", exc_info=fault)
         source.measuring.close()
+
+
+STOP_DELAY_S = 2.0
+"""Recording continues after the last repetition, to include its return movement."""
+
+
+class CourseRunner(QObject):
+    """Ends each part, times the rest and shows what comes next; ``open_screen`` opens the live screen."""
+
+    def __init__(
+        self,
+        parent: QObject,
+        live: LiveScreen,
+        patient: PatientViewController,
+        now: CurrentSelection,
+        open_screen: Callable[[], None],
+    ) -> None:
+        super().__init__(parent)
+        self._live, self._patient, self._current, self._open_screen = live, patient, now, open_screen
+        self._done_since_s = math.inf
+        self._remaining_rest_s = self._rest_s = 0
+        self._timer = QTimer(self, interval=1000)
+        self._timer.timeout.connect(self._on_second)
+        live.snapshot_taken.connect(self._update)
+
+    @property
+    def is_resting(self) -> bool:
+        return self._remaining_rest_s > 0
+
+    def start_part(self, set_up: SessionSetup) -> None:
+        self._done_since_s = math.inf
+        self._show_part(set_up)
+
+    def advance(self) -> bool:
+        """Show the next part after a recording; return False if there is none."""
+        now = self._current
+        following = next_part(now.set_up) if now.set_up is not None else None
+        # A stored recording shows one exercise.
+        if now.set_up is None or following is None or now.source is None or now.source.measuring.is_playback:
+            self.end()
+            return False
+        assert now.set_up.set_run is not None
+        self._rest_s = self._remaining_rest_s = now.set_up.set_run.part.rest_s
+        now.source.measuring.set_exercise(following)
+        now.set_up = following
+        self._open_screen()
+        if self._rest_s:
+            self._timer.start()
+            self._show_rest()
+        return True
+
+    def end(self) -> None:
+        self._timer.stop()
+        self._remaining_rest_s = 0
+        self._live.recording.set_resting(resting=False)
+        self._patient.show_rest(None)
+
+    def _on_second(self) -> None:
+        self._remaining_rest_s -= 1
+        if self._remaining_rest_s <= 0:
+            self.end()
+        self._show_rest()
+
+    def _show_rest(self) -> None:
+        if self._current.set_up is not None:
+            self._show_part(self._current.set_up)
+            course = self._current.set_up.set_run
+            self._live.recording.set_resting(resting=self.is_resting)
+            if self.is_resting and course is not None:
+                self._patient.show_rest((self._remaining_rest_s, self._rest_s, course.part_index, len(course.parts)))
+
+    def _show_part(self, set_up: SessionSetup) -> None:
+        course = set_up.set_run
+        if course is None:
+            self._live.course_label.show_text("")
+            return
+        words = self.tr("Exercise set “{name}”, {number} of {count}: {part}").format(
+            name=translate_phrase(course.name),
+            number=course.part_index + 1,
+            count=len(course.parts),
+            part=part_words(course.part),
+        )
+        if self.is_resting:
+            rest = self.tr("Rest {time}. Press Space to start now.").format(
+                time=numbers.format_clock(self._remaining_rest_s)
+            )
+            words = f"{rest} {words}. {translate_phrase(set_up.exercise.position)}"
+        self._live.course_label.show_text(words)
+
+    def _update(self, snapshot: ExerciseSnapshot) -> None:
+        set_up = self._current.set_up
+        course = set_up.set_run if set_up is not None else None
+        if set_up is None or course is None or snapshot.state != "recording":
+            return
+        if self.is_resting:
+            self.end()
+            self._show_part(set_up)
+        part = course.part
+        if part.seconds and self._live.recording.duration_s >= part.seconds:
+            self._live.recording.stop()
+        elif part.repetitions:
+            self._done_since_s = (
+                min(self._done_since_s, snapshot.time_s) if snapshot.found_count >= part.repetitions else math.inf
+            )
+            if snapshot.time_s - self._done_since_s >= STOP_DELAY_S:
+                self._live.recording.stop()

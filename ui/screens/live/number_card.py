@@ -1,4 +1,4 @@
-"""The large number: movement, angle, standard deviation, repetitions."""
+"""The large number: movement, angle, standard deviation, repetitions, and how they are read."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from carpus.core.model.hand.exercises import PRONOSUPINATION, Exercise, get_exercise
 from carpus.core.model.hand.forearm_rotation import axis_limits_deg, is_counted_from_thumb_up
 from carpus.core.model.rounding import format_rounded
+from carpus.core.model.types import TrackStatus
+from carpus.core.records.session_setup import SessionSetup
 from carpus.ui.charts.axes import draw_hatching
+from carpus.ui.charts.history import History
 from carpus.ui.charts.style import screen_style
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import paint_card
@@ -20,6 +23,7 @@ from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.kit.icons import paint_state
 from carpus.ui.kit.theme import CURVE_TOKENS, Theme
 from carpus.ui.kit.translate import to_mid_sentence
+from carpus.ui.screens.live.recording import RecordingController
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle, spread_side
 
@@ -67,6 +71,47 @@ class Reading:
     def with_next_finger(self) -> Reading:
         figure = self.figure
         return self if figure is None else Reading(figure=FingerAngle(figure.finger % len(FINGERS) + 1, figure.kind))
+
+    def with_targets(self, set_up: SessionSetup | None) -> Reading:
+        """Return the reading with the goals of the exercise, if it trains the angle shown."""
+        figure = self.figure
+        if set_up is None or (
+            figure.joint != set_up.exercise.joint if figure is not None else self.angle != set_up.exercise.angle
+        ):
+            return self
+        return replace(
+            self, target_positive_deg=set_up.target_positive_deg, target_negative_deg=set_up.target_negative_deg
+        )
+
+
+def current_reading(shown: Reading, history: History, recording: RecordingController) -> Reading:
+    """Return the present values of the angle that is shown."""
+    figure, count, lost = shown.figure, recording.counter, recording.camera_lost
+    if figure is not None:
+        column = FINGER_ANGLES.index(figure)
+        value, sd, measured = history.angle_value(column)
+        inferred = history.is_inferred(column)
+        known, own = (measured or inferred) and not lost, count is not None and count.joint == figure.joint
+        reading = Reading(figure=figure, is_predicted=known and inferred)
+    else:
+        angle, status = shown.angle, history.status
+        value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
+        known, own = not lost, count is not None and count.angle == angle
+        doubtful = known and status == TrackStatus.DOUBTFUL
+        reading = Reading(angle=angle, is_predicted=known and status == TrackStatus.PREDICTED, is_doubtful=doubtful)
+    asked = recording.set_up.repetitions if recording.set_up else 0
+    reading = replace(
+        reading, value_deg=value if known else math.nan, sd_deg=sd if known else math.nan,
+        repetitions_done=recording.repetitions, repetitions_asked=asked,
+        is_repetition_running=recording.state == "recording" and recording.repetitions < asked,
+    )  # fmt: skip
+    if count is not None and own:
+        backwards_deg = count.best_negative_deg if figure is None else math.nan  # no joint trains beyond straight
+        reading = replace(
+            reading, best_positive_deg=count.best_positive_deg, best_negative_deg=backwards_deg,
+            is_best_lower_bound=count.is_best_lower_bound,
+        )  # fmt: skip
+    return reading.with_targets(recording.set_up)
 
 
 class NumberCard(QWidget):

@@ -1,31 +1,40 @@
-"""The recording on the live screen: start by key, countdown or still hand; pause, notes, stop."""
+"""The recording on the live screen: start by key, countdown or still hand; pause, notes, stop; live repetitions."""
 
 from __future__ import annotations
 
 import math
 import time
+from array import array
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from carpus.core.model.types import FloatArray, TrackStatus
+from carpus.core.measures.finger_range import MIN_FURTHER_RAD
+from carpus.core.measures.repetitions import find_repetitions
+from carpus.core.measures.signals import MAX_ANGLE_SD_RAD, MAX_FILLED_GAP_S, SETTLING_S, resample_evenly
+from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
+from carpus.core.model.hand.forearm_rotation import pronosupination_from_palm_down, to_clinical_wrist_angles
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.records.session_setup import SessionSetup
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
 from carpus.ui.charts.history import History
 from carpus.ui.kit.background import Background
-from carpus.ui.picture.movement_guide import RecordingState
-from carpus.ui.screens.live.repetition_counter import RepetitionCounter
-from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle
+from carpus.ui.picture.movement_guide import ExerciseSnapshot, RecordingState
+from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
+from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle, find_finger_angle
 
 if TYPE_CHECKING:
     from carpus.core.pipeline.measurement import MeasurementController
 
 MIN_RECORDING_S = 3.0
 """A recording that is stopped sooner asks for confirmation."""
+TIMED_PARTS = 10
+"""Marks of progress for an exercise that goes by time."""
 
 
 class RecordingController(QObject):
@@ -159,14 +168,12 @@ class RecordingController(QObject):
 
     def check_start_trigger(self) -> None:
         """Start the recording if the countdown or the still hand says so."""
-        history, set_up = self._history, self.set_up
+        history = self._history
         if self.measuring is None or self.measuring.feed.is_recording or self.is_busy or not len(history):
             return
         if self.is_hand_resting():
             return
-        fingers = FINGERS[1:] if set_up is not None and set_up.protocol.has_fingers else ()
-        bent = [history.angle_value(FINGER_ANGLES.index(FingerAngle(finger, "middle")))[0] for finger in fingers]
-        angles = np.array([*history.angles_deg, *bent], dtype=float)
+        angles = np.array([*history.angles_deg, *(value for value, _, _ in self._finger_flexions_deg())], dtype=float)
         if self.start_trigger.update(angles if history.status == TrackStatus.TRACKED else None, self.time_s):
             self._record()
         self._update_countdown()
@@ -218,6 +225,46 @@ class RecordingController(QObject):
             self.stopped.emit(str(session_id))
 
         self._background.run(self.measuring.stop_recording, on_stopped, on_failed, self)
+
+    # --- what the patient's view draws --------------------------------------------------------------------
+    def exercise_snapshot(self, *, is_current: bool) -> ExerciseSnapshot:
+        """Return the present state of the trained angle, whichever angle is shown.
+
+        ``is_current`` is False if the last tracked frame is old.
+        """
+        history, set_up, state, now_s = self._history, self.set_up, self.state, time.monotonic()
+        done, asked = self.repetitions, set_up.repetitions if set_up else 0
+        if set_up is not None and set_up.set_run is not None and set_up.set_run.part.seconds:
+            done, asked = int(TIMED_PARTS * self.duration_s / set_up.set_run.part.seconds), TIMED_PARTS
+        if set_up is None or self.camera_lost or not is_current:
+            return ExerciseSnapshot(now_s, state=state, done=done, asked=asked, is_late=True)
+        deviation, flexion, turned = (float(value) for value in history.angles_deg)
+        seen = history.status == TrackStatus.TRACKED
+        angle = set_up.exercise.angle
+        value, sd, measured = math.nan, math.nan, seen
+        if set_up.protocol.has_fingers and set_up.exercise.joint:
+            value, sd, measured = history.angle_value(FINGER_ANGLES.index(find_finger_angle(set_up.exercise.joint)))
+        elif angle is not None:
+            value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
+            if angle == PRONOSUPINATION:  # the patient's hand is drawn from where it lies, palm down
+                value = math.degrees(float(pronosupination_from_palm_down(np.radians(value))))
+        bent_deg = [bent for bent, _, known in self._finger_flexions_deg() if known]
+        return ExerciseSnapshot(
+            now_s, value,
+            is_measured=measured and seen and math.isfinite(value) and sd <= math.degrees(MAX_ANGLE_SD_RAD),
+            is_hand_visible=seen,
+            wrist_deg=(deviation, flexion, turned),
+            mean_flexion_deg=sum(bent_deg) / len(bent_deg) if bent_deg else math.nan,
+            state=state, done=done, asked=asked, found_count=self.counter.found_count if self.counter else 0,
+            countdown_s=self.countdown_s,
+        )  # fmt: skip
+
+    def _finger_flexions_deg(self) -> list[tuple[float, float, bool]]:
+        """Return value, sd and whether it is measured of each long finger's PIP joint; none for the wrist alone."""
+        if self.set_up is None or not self.set_up.protocol.has_fingers:
+            return []
+        columns = (FINGER_ANGLES.index(FingerAngle(finger, "middle")) for finger in FINGERS[1:])
+        return [self._history.angle_value(column) for column in columns]
 
 
 COUNTDOWN_S = 3.0
@@ -286,3 +333,112 @@ class StartTrigger:
             self._recent_angles.popleft()
         seen = np.array([angles for _, angles in self._recent_angles])
         return float(np.nanmax(seen.max(axis=0) - seen.min(axis=0)))
+
+
+_ZERO_START_ANGLES = np.zeros(3)
+
+
+class RepetitionCounter:
+    """Collects recorded frames; counts once a second."""
+
+    def __init__(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
+        self._protocol, self._exercise = protocol or exercise.protocol, exercise
+        self.angle = FLEXION if exercise.angle is None else exercise.angle
+        self.joint = exercise.joint
+        self._figure = FINGER_ANGLES.index(find_finger_angle(exercise.joint)) if exercise.joint else -1
+        self._counts = exercise.has_repetitions
+        self._times, self._values, self._valid = array("d"), array("d"), array("b")
+        self.repetitions = 0
+        self.found_count = 0
+        """Present count; a repetition may turn out to be none with later frames."""
+        self.last_end_s = math.nan
+        """End of the last repetition, on the clock of the frames."""
+        self.duration_s = 0.0
+        self.best_positive_deg = math.nan
+        self.best_negative_deg = math.nan
+        self._passive_spans_s: list[tuple[float, float]] = []
+        self._max_hidden_rad = -math.inf
+        self._last_visible_s, self._visible_again_s = math.inf, -math.inf
+
+    @property
+    def is_best_lower_bound(self) -> bool:
+        """True if the trained joint may have moved further than the best value while hidden."""
+        best_rad = math.radians(self.best_positive_deg) if math.isfinite(self.best_positive_deg) else 0.0
+        return self._max_hidden_rad > best_rad + MIN_FURTHER_RAD
+
+    def set_passive(self, time_s: float, *, passive: bool) -> None:
+        """Exclude movements from a time on, while somebody else moves the hand."""
+        if self._is_passive(time_s):
+            self._passive_spans_s[-1] = (self._passive_spans_s[-1][0], time_s)
+        if passive:
+            self._passive_spans_s.append((time_s, math.inf))
+
+    def _is_passive(self, time_s: float) -> bool:
+        return any(start <= time_s < end for start, end in self._passive_spans_s)
+
+    def append(self, frames: Sequence[TrackedFrame]) -> None:
+        for frame, (value, sd, valid) in zip(frames, self._read_angles(frames), strict=True):
+            if self._times and frame.timestamp_s <= self._times[-1]:
+                continue
+            if self._times:
+                # A pause leaves a long step between two frames; it is not recorded time.
+                self.duration_s += min(frame.timestamp_s - self._times[-1], 0.2)
+            valid = valid and math.isfinite(value) and sd <= MAX_ANGLE_SD_RAD
+            self._times.append(frame.timestamp_s)
+            self._values.append(value)
+            self._valid.append(valid)
+            if self._is_passive(frame.timestamp_s):
+                self._is_settling(frame.timestamp_s)
+            elif valid and not self._is_settling(frame.timestamp_s):
+                self._update_best(math.degrees(value))
+            elif not valid and self._figure >= 0 and math.isfinite(value + sd):
+                self._max_hidden_rad = max(self._max_hidden_rad, value + sd)
+
+    def _is_settling(self, time_s: float) -> bool:
+        """Tell whether the hand was hidden just before: such frames give no best value."""
+        if time_s - self._last_visible_s > MAX_FILLED_GAP_S:
+            self._visible_again_s = time_s
+        self._last_visible_s = time_s
+        return time_s - self._visible_again_s <= SETTLING_S
+
+    def update_count(self) -> int:
+        """Count full repetitions.
+
+        For joints the tracked angle is used also while hidden, as in the review: a fist hides its own end.
+        """
+        if self._counts and len(self._times) > 2:
+            valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
+            signal = resample_evenly(np.array(self._times), np.array(self._values), valid)
+            every = find_repetitions(signal).repetitions if len(signal.time_s) else ()
+            found = [one for one in every if not self._is_passive(0.5 * (one.start_s + one.end_s))]
+            self.found_count = len(found)
+            self.last_end_s = found[-1].end_s if found else math.nan
+            self.repetitions = max(self.repetitions, self.found_count)  # what was done stays done
+        return self.repetitions
+
+    def _read_angles(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:
+        """Return the trained angle, its sd (both in radians) and whether it was measured, per frame."""
+        if self._figure >= 0 and frames and len(frames[0].kinematics.joint_angles_rad):
+            _, value_deg, sd_deg, measured, _ = estimate_finger_angles(self._protocol, frames)
+            column = self._figure
+            value, sd = np.radians(value_deg[:, column]).tolist(), np.radians(sd_deg[:, column]).tolist()
+            return list(zip(value, sd, measured[:, column].tolist(), strict=True))
+        return [
+            (
+                float(
+                    to_clinical_wrist_angles(frame.kinematics.angles_rad, self._exercise, _ZERO_START_ANGLES)[
+                        self.angle
+                    ]
+                ),
+                float(frame.kinematics.angles_sd_rad[self.angle]),
+                frame.status == TrackStatus.TRACKED,
+            )
+            for frame in frames
+        ]
+
+    def _update_best(self, value_deg: float) -> None:
+        turns = self.angle == PRONOSUPINATION and self._figure < 0  # it begins at 90 degrees of one direction
+        if value_deg >= 0.0 or turns:
+            self.best_positive_deg = float(np.fmax(self.best_positive_deg, value_deg))
+        if value_deg < 0.0 or turns:
+            self.best_negative_deg = float(np.fmin(self.best_negative_deg, value_deg))

@@ -8,14 +8,14 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QWidget
 
 from carpus.core.model.hand.protocols import PROTOCOLS
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
 from carpus.core.records.session_setup import SessionSetup
-from carpus.ui.charts.chart import Chart
 from carpus.ui.charts.finger_curves import FingerCurves
-from carpus.ui.charts.history import History
+from carpus.ui.charts.history import History, MarkerVisibility
 from carpus.ui.charts.live_curves import LiveCurves
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
@@ -25,14 +25,11 @@ from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, fill, ro
 from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.picture import overlay, skeleton
 from carpus.ui.picture.movement_guide import ExerciseSnapshot
 from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
-from carpus.ui.screens.live.controls import RecordingControls
-from carpus.ui.screens.live.frame_overlay import FrameOverlay
-from carpus.ui.screens.live.live_readings import LiveReadings
-from carpus.ui.screens.live.marker_doubt import find_doubt, make_doubt_light
-from carpus.ui.screens.live.note_dialogs import NoteDialog, PainDialog
-from carpus.ui.screens.live.number_card import NumberCard, Reading
+from carpus.ui.screens.live.controls import NoteDialog, PainDialog, RecordingControls
+from carpus.ui.screens.live.number_card import NumberCard, Reading, current_reading
 from carpus.ui.screens.live.recording import RecordingController
 from carpus.ui.screens.live.status_light import (
     StatusLight,
@@ -41,7 +38,7 @@ from carpus.ui.screens.live.status_light import (
     catch_up_words,
     hand_light,
     lag_light,
-    wrist_light,
+    marker_light,
 )
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
 from carpus.ui.words.finger_angles import find_finger_angle
@@ -77,8 +74,6 @@ class LiveScreen(FittedWidget):
     recording_changed = Signal(str, float)
     counters_changed = Signal(LiveCounters)
     event_received = Signal(object)
-    patient_view_requested = Signal()
-    """Emitted to open or close the patient's view."""
     snapshot_taken = Signal(ExerciseSnapshot)
     """State of the trained angle, as often as the values change."""
 
@@ -87,7 +82,6 @@ class LiveScreen(FittedWidget):
         self._theme = theme
         self.history = History(PROTOCOLS[0])
         self.recording = RecordingController(background, self.history)
-        self.readings = LiveReadings(self.history, self.recording)
         self._steady_light, self._steady_doubt, self._lag = SteadyLight(), SteadyLight(), TrackingLag()
         self._tracked_view: TrackedView | None = None
         self._draw_count = 0
@@ -98,7 +92,7 @@ class LiveScreen(FittedWidget):
         self.stage = QWidget()
         """Everything but the bar below: messages cover this part, and the light stays visible."""
         self.picture = FrameView(theme)
-        self.frame_overlay = FrameOverlay(self.picture, self.recording)
+        self.picture.overlay = self._paint_overlay
         self.number_card = NumberCard(theme)
         self.curves = LiveCurves(theme, self.history)
         self.finger_curves = FingerCurves(theme, self.history)
@@ -106,6 +100,7 @@ class LiveScreen(FittedWidget):
         self.speeds_button = Button(theme, self.tr("Speeds"), hint="F4", height_px=32)
         self.patient_view_button = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        """Part of a running set of exercises, and the remaining rest."""
         self.course_label.hide()
         self.catch_up_bar = ThinProgressBar(theme, self.tr("Progress of the analysis"))
         self.catch_up_bar.hide()
@@ -139,15 +134,14 @@ class LiveScreen(FittedWidget):
     def _connect(self) -> None:
         recording, controls = self.recording, self.controls
         controls.note_button.clicked.connect(lambda: self.note_dialog.open_note(passive=recording.is_passive))
-        controls.pain_button.clicked.connect(self.pain_dialog.open_pain)
+        controls.pain_button.clicked.connect(lambda: self.pain_dialog.open())
         controls.pause_button.clicked.connect(recording.toggle_pause)
         controls.main_button.clicked.connect(recording.toggle)
         self.note_dialog.note_entered.connect(lambda words: recording.add_event("note", words))
         self.note_dialog.passive_changed.connect(lambda passive: recording.set_passive(passive=passive))
         self.pain_dialog.pain_entered.connect(self._add_pain)
-        self.patient_view_button.clicked.connect(self.patient_view_requested)
         self.speeds_button.clicked.connect(self.toggle_speeds)
-        recording.started.connect(lambda: self._lag.reset())
+        recording.started.connect(lambda: self._lag.start_recording())
         recording.start_failed.connect(self.event_received)
         recording.stopping.connect(controls.show_storing)
         for ended in (recording.stopped, recording.stop_failed):
@@ -160,7 +154,7 @@ class LiveScreen(FittedWidget):
             "whole_picture": lambda: picture.set_whole(not picture.is_whole),
             "next_angle": lambda: self.show_angle(number.reading.with_next_angle()),
             "next_finger": lambda: self.show_angle(number.reading.with_next_finger()),
-            "speeds": self.toggle_speeds, "patient_view": self.patient_view_requested.emit,
+            "speeds": self.toggle_speeds, "patient_view": self.patient_view_button.click,
         }  # fmt: skip
         self.finger_curves.angle_chosen.connect(lambda figure: self.show_angle(Reading(figure=figure)))
         bind_screen_keys(self, actions)
@@ -190,7 +184,6 @@ class LiveScreen(FittedWidget):
         self._is_whole_hand = set_up.protocol.has_fingers
         self._steady_light, self._steady_doubt, self._lag = SteadyLight(), SteadyLight(), TrackingLag()
         self._tracked_view = None
-        self.frame_overlay.tracked_view = None
         self.recording.set_source(measuring, set_up)
         self.recording.is_hand_resting = is_hand_resting
         self.curves.set_exercise(exercise, set_up.target_positive_deg, set_up.target_negative_deg)
@@ -218,12 +211,12 @@ class LiveScreen(FittedWidget):
         self.speeds_button.set_label(self.tr("Angles") if shows_speeds else self.tr("Speeds"))
 
     def show_angle(self, reading: Reading) -> None:
-        reading = self.readings.with_targets(reading)
+        reading = reading.with_targets(self.recording.set_up)
         if reading.figure is not None:
             self.finger_curves.set_angle(reading.figure, reading.target_positive_deg)
         self.number_card.show_reading(reading)
         if reading.figure is not None and self.recording.measuring is not None and len(self.history):
-            self.number_card.show_reading(self.readings.current_reading(reading))
+            self.number_card.show_reading(current_reading(reading, self.history, self.recording))
 
     def set_camera_lost(self, lost: bool) -> None:
         """Show that the camera was lost or is back; nothing old stays on the screen meanwhile."""
@@ -231,16 +224,12 @@ class LiveScreen(FittedWidget):
         self.finger_curves.set_waiting(lost)
         if lost:
             self.picture.clear(self.tr("No image"))
-            self._tracked_view = self.frame_overlay.tracked_view = None
+            self._tracked_view = None
 
     def set_patient_view(self, is_open: bool) -> None:
         self.patient_view_button.set_label(self.patient_view_button.text(), icon="check" if is_open else "monitor")
         words = self.tr("Close the patient’s view") if is_open else self.tr("Open the patient’s view")
         self.patient_view_button.setAccessibleName(words)
-
-    def show_course(self, words: str) -> None:
-        """Show the part of the set and the remaining rest; empty outside a set."""
-        self.course_label.show_text(words)
 
     def _add_pain(self, score: int) -> None:
         if self.recording.add_event("pain", str(score)):
@@ -282,11 +271,10 @@ class LiveScreen(FittedWidget):
             recording.counter.append([tracked for tracked in fresh if tracked.index >= begin])
         view, newest = feed.current_view(), feed.current_frame()
         is_new, behind = self._is_new(view), self._lag.update(newest, view)
-        self.frame_overlay.is_late = behind
         if behind and newest is not None and not lost:
             self.picture.show_frame(newest.color_rgb)
         if view is not None and is_new and fresh and not lost:
-            self._tracked_view = self.frame_overlay.tracked_view = view
+            self._tracked_view = view
             if not behind:
                 self.picture.show_frame(view.frame.color_rgb)
             self.current_chart().draw()
@@ -306,32 +294,29 @@ class LiveScreen(FittedWidget):
         for event in feed.drain_events():
             self.event_received.emit(event)
 
-    def current_chart(self) -> Chart:
+    def current_chart(self) -> FingerCurves | LiveCurves:
         return self.finger_curves if self._is_whole_hand else self.curves
 
     def exercise_snapshot(self) -> ExerciseSnapshot:
         """Return the state of the trained angle, whichever angle is shown."""
         stale = time.monotonic() - self._new_frame_at_s > STALE_S
-        return self.readings.exercise_snapshot(is_current=not (self._lag.lag_s or stale))
+        return self.recording.exercise_snapshot(is_current=not (self._lag.lag_s or stale))
 
     def _show_values(self) -> None:
-        measuring = self.recording.measuring
+        recording, measuring = self.recording, self.recording.measuring
         if measuring is None:
             return
-        if self._is_whole_hand:
-            self.finger_curves.update_values()
-        else:
-            self.curves.update_values()
+        self.current_chart().update_values()
         self.controls.light_view.show_light(self._current_light(measuring))
-        if self.recording.is_storing:  # how long it takes until all that waits is tracked
+        if recording.is_storing:  # how long it takes until all that waits is tracked
             counters = measuring.feed.counters()
             left = self._lag.catch_up_progress(counters)
             self.catch_up_bar.setVisible(left is not None)
             self.controls.show_storing(catch_up_words(counters) if left else "")
             if left is not None:
                 self.catch_up_bar.show_progress(*left)
-        self.number_card.show_reading(self.readings.current_reading(self.number_card.reading))
-        self.recording_changed.emit(self.recording.state, self.recording.duration_s)
+        self.number_card.show_reading(current_reading(self.number_card.reading, self.history, recording))
+        self.recording_changed.emit(recording.state, recording.duration_s)
 
     def _current_light(self, measuring: MeasurementController) -> StatusLight:
         """Return the light: of the camera, else of the computer, a doubtful marker, or the start."""
@@ -344,13 +329,15 @@ class LiveScreen(FittedWidget):
             lamp = hand_light(frame, self.history.marker_visibility())
         else:
             pure = recording.set_up is not None and recording.set_up.exercise.is_forearm_fixed
-            now = wrist_light(frame, markers, pure and self.history.has_forearm_moved())
+            pixels = () if frame is None else zip(markers, frame.marker_measured_px, strict=True)
+            seen: dict[str, MarkerVisibility] = {
+                name: "seen" if math.isfinite(pixel[0]) else "hidden" for name, pixel in pixels
+            }
+            now = hand_light(frame, seen, has_forearm_moved=pure and self.history.has_forearm_moved())
             lamp = self._steady_light.update(now, recording.time_s)
         if self._lag.lag_s:
             return lag_light(self._lag, recording=recording.state != "off")
-        doubt = self._steady_doubt.update(
-            make_doubt_light(find_doubt(frame, markers, measuring.camera)), recording.time_s
-        )
+        doubt = self._steady_doubt.update(marker_light(frame, markers, measuring.camera), recording.time_s)
         if doubt.state and lamp.rank in ("good", "warn"):
             return doubt
         if lamp.rank == "good" and recording.is_hand_resting():
@@ -362,6 +349,18 @@ class LiveScreen(FittedWidget):
         if lamp.rank == "good" and recording.start_trigger.is_waiting and recording.state == "off":
             return StatusLight("good", lamp.state, self.tr("Starts automatically when the hand is still"))
         return lamp
+
+    def _paint_overlay(self, painter: QPainter, picture: FrameView) -> None:
+        """Paint markers and model of the tracked view, unless the frame is newer."""
+        measuring, set_up = self.recording.measuring, self.recording.set_up
+        if self._tracked_view is None or measuring is None or set_up is None or self._lag.lag_s:
+            return
+        frame, camera = self._tracked_view.tracked, measuring.camera
+        if set_up.protocol.has_fingers:
+            skeleton.paint_skeleton(painter, frame, set_up.protocol, camera, picture.to_screen)
+        else:
+            overlay.paint_palm_links(painter, frame, camera, picture.to_screen)
+            overlay.paint_markers(painter, frame, picture.to_screen)
 
     def _show_counters(self) -> None:
         measuring, count = self.recording.measuring, self.recording.counter

@@ -8,13 +8,21 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from carpus.core.model.camera import Camera
+from carpus.core.model.fault_text import marker_name
 from carpus.core.model.hand.protocols import PALM_MARKERS
 from carpus.core.model.rounding import format_rounded
-from carpus.core.model.types import Frame, TrackedFrame, TrackStatus
+from carpus.core.model.types import FloatArray, Frame, TrackedFrame, TrackStatus
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
 from carpus.ui.charts.history import MarkerVisibility
-from carpus.ui.kit.translate import tr
+from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD, font
+from carpus.ui.kit.icons import paint_state
+from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.words.marker_words import finger_name, marker_title, occlusion_remedy
 
 Rank = Literal["good", "warn", "bad", "idle"]
@@ -31,73 +39,15 @@ class StatusLight:
     remedy: str
 
 
-MIN_TRACKABLE = 3
-"""Markers needed to locate the hand."""
-
-
-def wrist_light(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: bool) -> StatusLight:
-    """Return the light for one frame with six markers, without any delay."""
-    if frame is None:
-        return StatusLight("idle", tr("Waiting for the camera image"), "")
-    if frame.status == TrackStatus.LOST:
-        return StatusLight("bad", tr("Hand not visible"), tr("Hold the hand flat under the camera"))
-    hidden = [
-        name for name, pixel in zip(markers, frame.marker_measured_px, strict=True) if not math.isfinite(pixel[0])
-    ]
-    if len(markers) - len(hidden) < MIN_TRACKABLE or frame.status == TrackStatus.PREDICTED:
-        return StatusLight("warn", tr("Too few markers visible"), tr("Turn the back of the hand to the camera"))
-    if len(hidden) == 1:
-        return StatusLight(
-            "warn", tr("{marker} occluded").format(marker=marker_title(hidden[0])), occlusion_remedy(hidden[0])
-        )
-    if hidden:
-        words = tr("{count} markers occluded").format(count=len(hidden))
-        return StatusLight("warn", words, tr("Turn the back of the hand to the camera"))
-    if frame.status == TrackStatus.DOUBTFUL:
-        return StatusLight(
-            "warn", tr("Uncertain"), tr("Markers do not match the hand: hold the hand flat for a moment")
-        )
-    if forearm_moved:
-        return StatusLight("warn", tr("Forearm moved"), tr("Lay the forearm back where it was"))
-    if not np.isfinite(frame.kinematics.angles_rad).any():
-        return StatusLight("idle", tr("No angle yet"), tr("Hold the hand flat for a moment"))
-    return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=len(markers)))
-
-
-class SteadyLight:
-    """Delays changes of the light: amber after 0.3 s, green after 0.5 s, red at once.
-
-    Words of the same rank change only when they have lasted as long.
-    """
-
-    def __init__(self) -> None:
-        self._shown: StatusLight | None = None
-        self._wanted: StatusLight | None = None
-        self._since_s = math.nan
-
-    def update(self, status_light: StatusLight, now_s: float) -> StatusLight:
-        """Return the light to show at ``now_s``, given that of the frame."""
-        if self._shown is None or status_light.rank in ("bad", "idle") or self._shown.rank == "idle":
-            self._shown = self._wanted = status_light
-            return status_light
-        if status_light == self._shown:
-            self._wanted = status_light
-            return status_light
-        if self._wanted is None or status_light.rank != self._wanted.rank or self._wanted == self._shown:
-            self._since_s = now_s
-        self._wanted = status_light
-        delay_s = GREEN_AFTER_S if status_light.rank == "good" else AMBER_AFTER_S
-        if now_s - self._since_s >= delay_s - 1e-9:
-            self._shown = status_light
-        return self._shown
-
-
 MIN_PALM_MARKERS = 3
+"""Markers of the palm needed to locate the hand."""
 _DISTAL_JOINTS = ("PIP", "DIP", "TIP", "IP")
 
 
-def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibility]) -> StatusLight:
-    """Return the light of the whole hand, from the same visibility as its map."""
+def hand_light(
+    frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibility], *, has_forearm_moved: bool = False
+) -> StatusLight:
+    """Return the light for one frame and the visibility of its markers, without any delay."""
     if frame is None:
         return StatusLight("idle", tr("Waiting for the camera image"), "")
     if frame.status == TrackStatus.LOST:
@@ -111,14 +61,17 @@ def hand_light(frame: TrackedFrame | None, visibility: Mapping[str, MarkerVisibi
         return StatusLight(
             "warn", tr("Uncertain"), tr("Markers do not match the hand: hold the hand flat for a moment")
         )
-    if not hidden and partly:
+    if hidden:
+        return StatusLight("warn", occlusion_words(hidden), remedy_words(hidden))
+    if partly:
         return StatusLight("warn", _partly_words(partly), remedy_words(partly))
-    if not hidden and not np.isfinite(frame.kinematics.joint_angles_rad).any():
+    if has_forearm_moved:
+        return StatusLight("warn", tr("Forearm moved"), tr("Lay the forearm back where it was"))
+    now = frame.kinematics
+    if not np.isfinite(now.joint_angles_rad if len(now.joint_angles_rad) else now.angles_rad).any():
         return StatusLight("idle", tr("No angle yet"), tr("Hold the hand flat for a moment"))
-    if not hidden:
-        count = len(visibility)
-        return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=count))
-    return StatusLight("warn", occlusion_words(hidden), remedy_words(hidden))
+    count = len(visibility)
+    return StatusLight("good", tr("Hand tracked well"), tr("All {count} markers visible").format(count=count))
 
 
 def occlusion_words(hidden: Sequence[str]) -> str:
@@ -156,6 +109,83 @@ def _partly_words(poor: Sequence[str]) -> str:
     return tr("{count} markers often occluded").format(count=len(poor))
 
 
+MAX_DISTANCE_M = 0.03
+"""A spot may be a marker if it is this near to the marker's expected place."""
+_SAME_BLOB_PX = 1.5
+
+
+def marker_light(frame: TrackedFrame | None, markers: Sequence[str], camera: Camera) -> StatusLight:
+    """Return the light of a doubtful marker, else of a hidden one near an unused blue spot.
+
+    A good light without words stands for neither.
+    """
+    if frame is None or frame.status == TrackStatus.LOST or len(frame.marker_measured_px) != len(markers):
+        return StatusLight("good", "", "")
+    measured = frame.marker_measured_px
+    hidden = ~np.isfinite(measured[:, 0])
+    place = np.where(hidden[:, None], frame.marker_predicted_px, measured)
+    unused = _find_unused_blobs(frame)
+    for rows in (np.flatnonzero(frame.doubted), np.flatnonzero(hidden)):
+        nearest: list[tuple[float, int]] = []
+        for k in rows:
+            if not np.isfinite(place[k]).all() or not len(unused):
+                continue
+            distance = np.linalg.norm(unused - place[k], axis=1)
+            reach_px = MAX_DISTANCE_M * camera.fx_px / max(float(frame.marker_position_cam_m[k, 2]), 0.2)
+            if distance.min() <= reach_px:
+                nearest.append((float(distance.min()), int(k)))
+        if nearest:
+            row = min(nearest)[1]
+            name = marker_name(markers[row], translate_phrase)
+            if hidden[row]:
+                return StatusLight(
+                    "warn", tr("Another blue spot is here"), tr("Is it the {marker}?").format(marker=name)
+                )
+            return StatusLight("warn", tr("Uncertain"), tr("Which blue spot is the {marker}?").format(marker=name))
+    if frame.doubted.any():
+        name = marker_name(markers[int(np.flatnonzero(frame.doubted)[0])], translate_phrase)
+        return StatusLight("warn", tr("Uncertain"), tr("Check the {marker}").format(marker=name))
+    return StatusLight("good", "", "")
+
+
+def _find_unused_blobs(frame: TrackedFrame) -> FloatArray:
+    """Return spots (S, 2) assigned to no marker and not rejected by a person."""
+    seen = frame.detections.pixel[~frame.is_rejected]
+    taken = frame.marker_measured_px[np.isfinite(frame.marker_measured_px[:, 0])]
+    if not len(seen) or not len(taken):
+        return seen
+    free = np.linalg.norm(seen[:, None] - taken[None], axis=-1).min(axis=1) > _SAME_BLOB_PX
+    return np.asarray(seen[free])
+
+
+class SteadyLight:
+    """Delays changes of the light: amber after 0.3 s, green after 0.5 s, red at once.
+
+    Words of the same rank change only when they have lasted as long.
+    """
+
+    def __init__(self) -> None:
+        self._shown: StatusLight | None = None
+        self._wanted: StatusLight | None = None
+        self._since_s = math.nan
+
+    def update(self, status_light: StatusLight, now_s: float) -> StatusLight:
+        """Return the light to show at ``now_s``, given that of the frame."""
+        if self._shown is None or status_light.rank in ("bad", "idle") or self._shown.rank == "idle":
+            self._shown = self._wanted = status_light
+            return status_light
+        if status_light == self._shown:
+            self._wanted = status_light
+            return status_light
+        if self._wanted is None or status_light.rank != self._wanted.rank or self._wanted == self._shown:
+            self._since_s = now_s
+        self._wanted = status_light
+        delay_s = GREEN_AFTER_S if status_light.rank == "good" else AMBER_AFTER_S
+        if now_s - self._since_s >= delay_s - 1e-9:
+            self._shown = status_light
+        return self._shown
+
+
 LAG_S, CAUGHT_UP_S = 1.0, 0.4
 """The light reports a lag above the first value until it is below the second."""
 MIN_WAITING_FRAMES = 15
@@ -168,13 +198,13 @@ class TrackingLag:
     def __init__(self) -> None:
         self.lag_s = 0.0
         """0 while the values are current."""
+        self.start_recording()
+
+    def start_recording(self) -> None:
         self.missing_frames = 0
         """Frames of this recording that were dropped or never came."""
         self._missing_before: int | None = None
         self._max_waiting = 0
-
-    def reset(self) -> None:
-        self.missing_frames, self._missing_before, self._max_waiting = 0, None, 0
 
     def update(self, newest: Frame | None, view: TrackedView | None) -> bool:
         """Update the lag with the newest and the newest tracked frame; return True if it is too large."""
@@ -212,3 +242,85 @@ def catch_up_words(counters: LiveCounters) -> str:
     if not math.isfinite(counters.tracking_lag_s):
         return tr("Analysing…")
     return tr("Analysing: {seconds} s left").format(seconds=max(1, math.ceil(counters.tracking_lag_s)))
+
+
+HEIGHT_PX = 72
+BANDS = {
+    "good": ("good_soft", "good", "text", "good", "good_soft"),
+    "warn": ("band_warn", "on_band_warn", "on_band_warn", "on_band_warn", "band_warn"),
+    "bad": ("band_bad", "on_band_bad", "on_band_bad", "on_band_bad", "band_bad"),
+    "idle": ("sunken", "text2", "text2", "border", "sunken"),
+}
+"""Colours by rank: background, state, remedy, icon body, icon sign."""
+WRAP_FLAG = int(Qt.TextFlag.TextWordWrap)
+TEXT_SHARES = [0.95 - 0.05 * step for step in range(10)]
+
+
+class StatusLightView(QWidget):
+    """Paints a :class:`StatusLight`."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.status_light = StatusLight("idle", "", "")
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self.updateGeometry)
+
+    def show_light(self, status_light: StatusLight) -> None:
+        """Change the light; screen readers get both lines."""
+        if status_light != self.status_light:
+            self.status_light = status_light
+            self.setAccessibleName(f"{status_light.state}. {status_light.remedy}")
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(620, self._theme.px(HEIGHT_PX))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        color, scale = self._theme.color, self._theme.text_scale
+        ground, word, remedy, body, sign = BANDS[self.status_light.rank]
+        painter.fillRect(self.rect(), color(ground))
+        size = 36 * scale
+        icon = QRectF(34, (self.height() - size) / 2, size, size)
+        paint_state(
+            painter,
+            "open" if self.status_light.rank == "idle" else self.status_light.rank,
+            icon,
+            color(body),
+            color(sign),
+        )
+        left = icon.right() + 18
+        room = QRectF(left, 4, self.width() - left - 12, self.height() - 8)
+        for (text, face, place), ink in zip(self._place_lines(room), (word, remedy), strict=True):
+            painter.setFont(face)
+            painter.setPen(color(ink))
+            painter.drawText(place, WRAP_FLAG, text)
+
+    def _place_lines(self, room: QRectF) -> list[tuple[str, QFont, QRectF]]:
+        """Place state and remedy on one line if they fit, else one above the other, shrunk to fit."""
+        (state, large, _), (remedy, small, _) = above = self._stack_lines(room, 1.0)
+        upper, lower = QFontMetricsF(large), QFontMetricsF(small)
+        beside = upper.horizontalAdvance(state) + 18
+        if beside + lower.horizontalAdvance(remedy) <= room.width():
+            baseline = room.center().y() + 10 * self._theme.text_scale
+            left = room.translated(0, baseline - upper.ascent() - room.top())
+            return [(state, large, left), (remedy, small, left.translated(beside, upper.ascent() - lower.ascent()))]
+        for share in TEXT_SHARES:
+            if all(room.contains(place) for *_, place in above):
+                break
+            above = self._stack_lines(room, share)
+        return above
+
+    def _stack_lines(self, room: QRectF, share: float) -> list[tuple[str, QFont, QRectF]]:
+        """Place both lines one above the other in the middle, at ``share`` of their size."""
+        placed, size = [], share * self._theme.text_scale
+        for text, face in (
+            (self.status_light.state, font(28 * size, SEMIBOLD)),
+            (self.status_light.remedy, font(20 * size, MEDIUM)),
+        ):
+            placed.append((text, face, QFontMetricsF(face).boundingRect(room, WRAP_FLAG, text)))
+        (*_, upper), (*_, lower) = placed
+        upper.moveTop(room.center().y() - (upper.height() + lower.height()) / 2)
+        lower.moveTop(upper.bottom())
+        return placed

@@ -44,7 +44,7 @@ class MarkersFlow(Flow):
 
     def navigate_back(self) -> None:
         """Go back to the camera; ask first if labels would be lost."""
-        if not self.screen.has_labels:
+        if self.screen.labels is None or not self.screen.labels.confirmed_px:
             self.context.navigator.open_screen("camera")
             return
         self.context.messages.show_question(

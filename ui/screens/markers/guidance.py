@@ -1,46 +1,57 @@
-"""The column beside the frame: the present step, the checks, and how to continue."""
+"""The column beside the frame: the present step, the checks of the calibration, and how to continue."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSpinBox, QVBoxLayout, QWidget
 
-from carpus.core.calibration.calibrate import MeasuredHand
-from carpus.core.calibration.hand_calibrator import HandCalibrator
-from carpus.core.calibration.result import ALL_STRAIGHT
+from carpus.core.calibration.result import ALL_STRAIGHT, CalibrationFinding, Verdict
 from carpus.core.model.fault_text import marker_name
 from carpus.core.model.hand.exercises import DIRECTIONS, PRONOSUPINATION, get_exercise
 from carpus.core.model.hand.forearm_rotation import pronosupination_from_palm_down, to_clinical_wrist_angles
-from carpus.core.model.rounding import round_half_away
+from carpus.core.model.rounding import format_rounded, round_half_away
 from carpus.core.model.types import FloatArray
+from carpus.ui.kit import numbers
 from carpus.ui.kit.button import ENTER_KEY, Button
+from carpus.ui.kit.card import Card, Separator
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import ChoiceRow, number_field
 from carpus.ui.kit.icons import State
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, grid_layout, row_layout
+from carpus.ui.kit.numbers import NARROW_GAP, UNKNOWN
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, heading
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.picture.hand_drawing import HandDrawing, MarkerState
-from carpus.ui.screens.markers.label_state import LabelState
-from carpus.ui.screens.markers.labelling import Remedy, find_faulty_markers, remedy_face
-from carpus.ui.screens.markers.verdict import (
-    DOUBT_FINDINGS,
-    LABEL_FINDINGS,
-    VerdictPanel,
-    headline,
-    verdict_rows,
-)
+from carpus.ui.screens.markers.labelling import LabelState, Remedy, find_faulty_markers
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
+from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator
 from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
 from carpus.ui.words.marker_words import click_instruction, finger_name, marker_placement, marker_title
 
+MARKER_FINDINGS = (
+    "click_on_no_marker",
+    "two_clicks_on_one",
+    "swapped",
+    "misnamed",
+    "shifted",
+    "wrong_side",
+    "no_depth",
+    "residual",
+    "depth_off",
+    "other_spot",
+    "spare_spot",
+    "near_spot",
+    "no_palm",
+)
+LABEL_FINDINGS = ("shifted", "swapped", "misnamed", "wrong_side")
+DOUBT_FINDINGS = ("other_spot", "no_palm", "spare_spot", "near_spot")
+STILL_FINDINGS = ("moved", "few_frames")
 COLUMN_PX = 376
 
 
@@ -83,7 +94,7 @@ class GuidancePanel(QWidget):
         self._column.invalidate()
         return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
 
-    def show_preview(self, calibrator: HandCalibrator) -> None:
+    def show_preview(self, calibrator: Calibrator) -> None:
         self.step_label.show_state("none", self.tr("Image"))
         self.title_label.setText(self.tr("Lay the hand flat and still"))
         self.instruction_label.setText(
@@ -101,8 +112,8 @@ class GuidancePanel(QWidget):
 
         ``sees_none``: there are no candidates; ``is_proposing``: labels are being proposed.
         """
-        asked, to_go = len(labels.order), len(labels.missing)
-        number = labels.order.index(labels.current) + 1
+        asked, to_go = len(labels.protocol.markers), len(labels.missing)
+        number = labels.protocol.markers.index(labels.current) + 1
         self.step_label.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
         self.title_label.setText(click_instruction(labels.current))
         self.instruction_label.setText(marker_placement(labels.current))
@@ -133,16 +144,16 @@ class GuidancePanel(QWidget):
             self._show_proposals(labels)
 
     def _show_proposals(self, labels: LabelState) -> None:
-        words = proposal_words(labels)
-        self.step_label.show_state(words.state, words.step, token="warn" if words.state == "warn" else "text2")
-        self.title_label.setText(words.title)
-        self.instruction_label.setText(words.instruction)
+        state, step, title, instruction, primary = proposal_words(labels)
+        self.step_label.show_state(state, step, token="warn" if state == "warn" else "text2")
+        self.title_label.setText(title)
+        self.instruction_label.setText(instruction)
         self.primary_button.setEnabled(True)
-        self.primary_button.set_label(words.primary, icon="", hint=ENTER_KEY)
+        self.primary_button.set_label(primary, icon="", hint=ENTER_KEY)
         self.second_button.set_label(self.tr("Click the markers"), hint="C")
         self.second_button.show()
 
-    def show_verdict(self, labels: LabelState, outcome: MeasuredHand, remedy: Remedy) -> None:
+    def show_verdict(self, labels: LabelState, outcome: CalibrationAssessment, remedy: Remedy) -> None:
         """Show the checks and the most likely remedy."""
         verdict = outcome.verdict
         words, state = headline(verdict)
@@ -166,7 +177,11 @@ class GuidancePanel(QWidget):
             told = finding_words(first)
             self.title_label.setText(told.summary.rstrip("."))
             self.instruction_label.setText(" ".join(part for part in (told.data_safety, told.remedy) if part))
-            words, key = remedy_face(remedy)
+            words, key = {
+                "swap": (self.tr("Swap the two"), ENTER_KEY), "click_these": (self.tr("Click the marker again"), "C"),
+                "correct": (self.tr("Correct labels"), ""), "take_spot": (self.tr("Use that spot"), ""),
+                "new_picture": (self.tr("New image"), "N"),
+            }[remedy]  # fmt: skip
             self.primary_button.set_label(words, icon="", hint=key)
             swap = remedy == "swap"
             self.second_button.set_label(
@@ -178,7 +193,7 @@ class GuidancePanel(QWidget):
 
 def _hand_states(labels: LabelState, wrong: Sequence[str]) -> dict[str, MarkerState]:
     states: dict[str, MarkerState] = {}
-    for name in labels.order:
+    for name in labels.protocol.markers:
         states[name] = "wrong" if name in wrong else "done" if name in labels.confirmed_px else "later"
     for name, one in labels.proposals.items():
         states[name] = "proposed" if one.is_sure else "doubtful"
@@ -191,20 +206,9 @@ MAX_NAMED = 4
 """Up to this many markers are listed by name."""
 
 
-@dataclass(frozen=True, slots=True)
-class ProposalWords:
-    """Texts of the panel while labels are proposed."""
-
-    state: State
-    step: str
-    title: str
-    instruction: str
-    primary: str
-
-
-def proposal_words(labels: LabelState) -> ProposalWords:
-    """Return which labels need a look, and what Enter does."""
-    asked, open_names, doubtful = len(labels.order), labels.open_markers, labels.doubtful
+def proposal_words(labels: LabelState) -> tuple[State, str, str, str, str]:
+    """Return state, step, title, instruction and button: which labels need a look, and what Enter does."""
+    asked, open_names, doubtful = len(labels.protocol.markers), labels.open_markers, labels.doubtful
     named = len(labels.proposals)
     primary = tr("Labels are correct") if not open_names else tr("Accept {count} labels").format(count=named)
     if not open_names and not doubtful:
@@ -215,7 +219,7 @@ def proposal_words(labels: LabelState) -> ProposalWords:
                 "The line of each finger should run from the wrist to the fingertip. To change a label, drag it to "
                 "another marker."
             )
-        return ProposalWords("good", whole, tr("Are these labels correct?"), todo, primary)
+        return "good", whole, tr("Are these labels correct?"), todo, primary
     if doubtful:
         step = (
             tr("1 label is uncertain")
@@ -224,12 +228,10 @@ def proposal_words(labels: LabelState) -> ProposalWords:
         )
         todo = tr("Check: {markers}. Press Enter to accept, or drag a label to another marker.")
         title = tr("Is this the {marker}?").format(marker=marker_name(doubtful[0], translate_phrase))
-        return ProposalWords("warn", step, title, todo.format(markers=_join_markers(doubtful)), tr("Yes, it is"))
+        return "warn", step, title, todo.format(markers=_join_markers(doubtful)), tr("Yes, it is")
     step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
     todo = tr("Not found: {markers}. Press Enter to accept the others, then click these.")
-    return ProposalWords(
-        "warn", step, click_instruction(labels.current), todo.format(markers=_join_markers(open_names)), primary
-    )
+    return "warn", step, click_instruction(labels.current), todo.format(markers=_join_markers(open_names)), primary
 
 
 def _join_markers(names: tuple[str, ...]) -> str:
@@ -239,6 +241,112 @@ def _join_markers(names: tuple[str, ...]) -> str:
             markers=", ".join(words[:MAX_NAMED]), count=len(words) - MAX_NAMED
         )
     return ", ".join(words)
+
+
+def verdict_rows(verdict: Verdict) -> list[tuple[State, str, str]]:
+    """Return state, item and value of each row of an assessed calibration."""
+    kinds = {finding.kind: finding for finding in verdict.findings}
+    marker_faults = [kinds[kind] for kind in MARKER_FINDINGS if kind in kinds]
+    count = len(verdict.residual_mm)
+    worst = float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan
+    markers = tr("all {count} found").format(count=count)
+    if kinds.keys() & set(LABEL_FINDINGS):
+        markers = tr("labels wrong")
+    elif kinds.keys() & set(DOUBT_FINDINGS):
+        markers = tr("1 uncertain")
+    elif any(fault.blocks for fault in marker_faults):
+        markers = tr("{count} not found").format(count=len({name for fault in marker_faults for name in fault.markers}))
+    elif math.isfinite(worst):
+        markers = tr("within {size} mm").format(size=numbers.format_fixed(worst, 1))
+    still = [kinds[kind] for kind in STILL_FINDINGS if kind in kinds]
+    hand = tr("moved") if "moved" in kinds else tr("still, flat") if verdict.frames_used else UNKNOWN
+    distance = _finding_state(kinds.get("distance"), verdict.distance_m)
+    tilt = _finding_state(kinds.get("tilt"), verdict.tilt_deg)
+    length = _finding_state(
+        kinds.get("other_length") or kinds.get("hand_length") or kinds.get("other_spot") or kinds.get("no_palm"),
+        verdict.hand_length_mm,
+    )
+    return [
+        (_summary_state(marker_faults), tr("Markers"), markers),
+        (distance, tr("Distance"), _format_value(100 * verdict.distance_m, f"{NARROW_GAP}cm")),
+        (tilt, tr("Camera tilt"), _format_value(verdict.tilt_deg, "°")),
+        (_summary_state(still) if verdict.frames_used else "open", tr("Hand"), hand),
+        (length, tr("Hand length"), _format_value(verdict.hand_length_mm, f"{NARROW_GAP}mm")),
+    ]
+
+
+class VerdictPanel(Card):
+    """Card with a headline and the rows."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 16)
+        self._theme = theme
+        self.headline = Text(theme, "", 16, SEMIBOLD)
+        self.sign = StateText(theme)
+        self.body.addLayout(row_layout((self.headline, 1), self.sign))
+        self.body.setSpacing(0)
+        self._grid = grid_layout(10, 0, stretches=(0, 0, 1), margins=(0, 8, 0, 0))
+        self.body.addLayout(self._grid)
+        self.lines: list[tuple[StateText, Text, Text]] = []
+        self._rules: list[Separator] = []
+
+    def show_rows(self, headline: str, state: State, rows: Sequence[tuple[State, str, str]]) -> None:
+        self.headline.setText(headline)
+        self.sign.show_state(state, "")
+        words = {"good": self.tr("good"), "warn": self.tr("uncertain"), "bad": self.tr("wrong")}
+        while len(self.lines) < len(rows):
+            self._add_line()
+        for (icon, *texts), (row_state, *shown) in zip(self.lines, rows, strict=True):
+            icon.show_state(row_state, "")
+            icon.setAccessibleName(words.get(row_state, self.tr("open")))
+            for text, word in zip(texts, shown, strict=True):
+                text.setText(word)
+
+    def _add_line(self) -> None:
+        place = 2 * len(self.lines)
+        line = Separator(self._theme)
+        self._rules.append(line)
+        self._grid.addWidget(line, place, 0, 1, 3)
+        icon = StateText(self._theme, icon_px=16)
+        cells = (
+            icon, Text(self._theme, "", 14, REGULAR, "text2"), Text(self._theme, "", 14, SEMIBOLD),
+        )  # fmt: skip
+        for column, cell in enumerate(cells):
+            self._grid.addWidget(cell, place + 1, column)
+        self.lines.append(cells)
+        self._grid.setRowMinimumHeight(place + 1, self._theme.px(29))
+
+    def show_all(self, shown: bool) -> None:
+        """Show all rows, or only those that are not good."""
+        for number, (rule, cells) in enumerate(zip(self._rules, self.lines, strict=True)):
+            visible = shown or cells[0].state != "good"
+            for part in (rule, *cells):
+                part.setVisible(visible)
+            self._grid.setRowMinimumHeight(2 * number + 1, self._theme.px(29) if visible else 0)
+
+
+def headline(verdict: Verdict) -> tuple[str, State]:
+    """Return ``Ready``, ``Uncertain`` or ``Cannot start yet`` with its state."""
+    if verdict.is_good:
+        return tr("Ready"), "good"
+    return (tr("Uncertain"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")
+
+
+def _summary_state(findings: Sequence[CalibrationFinding]) -> State:
+    if not findings:
+        return "good"
+    serious = any(finding.blocks or finding.kind in LABEL_FINDINGS for finding in findings)
+    return "bad" if serious else "warn"
+
+
+def _finding_state(finding: CalibrationFinding | None, value: float) -> State:
+    if not math.isfinite(value):
+        return "open"
+    return "good" if finding is None else "bad" if finding.blocks else "warn"
+
+
+def _format_value(value: float, unit: str) -> str:
+    return f"{format_rounded(value)}{unit}" if math.isfinite(value) else UNKNOWN
 
 
 class StraightFingers(QWidget):
@@ -268,31 +376,21 @@ class StraightFingers(QWidget):
         return tuple(not button.isChecked() for button in self.buttons)
 
     def show_answer(self, straight: tuple[bool, ...]) -> None:
-        for number, (button, lies_straight) in enumerate(zip(self.buttons, straight, strict=True), start=1):
+        for button, lies_straight in zip(self.buttons, straight, strict=True):
             button.setChecked(not lies_straight)
-            self._set_face(button, number)
-        self._show_hint()
-
-    def toggle(self, number: int) -> None:
-        """Toggle a finger, 1 (thumb) to 5 (little finger)."""
-        self.buttons[number - 1].click()
+        self._refresh()
 
     def _on_clicked(self) -> None:
-        for number, button in enumerate(self.buttons, start=1):
-            self._set_face(button, number)
-        self._show_hint()
+        self._refresh()
         self.changed.emit(self.answer)
 
-    def _set_face(self, button: Button, number: int) -> None:
-        finger = finger_name(str(number))
-        face = self.tr("{finger} bent").format(finger=finger) if button.isChecked() else finger
-        button.set_label(face)
-
-    def _show_hint(self) -> None:
-        bent = self.answer.count(False)
+    def _refresh(self) -> None:
+        for number, button in enumerate(self.buttons, start=1):
+            finger = finger_name(str(number))
+            button.set_label(self.tr("{finger} bent").format(finger=finger) if button.isChecked() else finger)
         self._hint.setText(
             self.tr("Click a finger that cannot fully extend (keys 1 to 5).")
-            if not bent
+            if all(self.answer)
             else self.tr("A bent finger is measured from its own resting position, which is less accurate.")
         )
 
@@ -300,10 +398,6 @@ class StraightFingers(QWidget):
 MAX_DEG, MAX_TURN_DEG = 80, 110
 FIELD_ORDER = (1, 0, 2)
 """Flexion first: contractures limit it most."""
-
-
-def _from_thumb_up(angles_rad: FloatArray) -> FloatArray:
-    return to_clinical_wrist_angles(angles_rad, get_exercise("FOREARM_PS"), np.zeros(3))
 
 
 class StartAngleDialog(Dialog):
@@ -338,8 +432,9 @@ class StartAngleDialog(Dialog):
         body.addLayout(row_layout(STRETCH, straight, keep))
 
     def open_angles(self, angles_rad: FloatArray) -> None:
+        from_thumb_up_rad = to_clinical_wrist_angles(angles_rad, get_exercise("FOREARM_PS"), np.zeros(3))
         for column, (direction, value) in self.fields.items():
-            shown_deg = math.degrees(_from_thumb_up(angles_rad)[column])
+            shown_deg = math.degrees(from_thumb_up_rad[column])
             direction.choose(DIRECTIONS[column][0 if shown_deg >= 0 else 1])
             value.setValue(round_half_away(abs(shown_deg)))
         self.open(self.fields[FIELD_ORDER[0]][1])

@@ -1,22 +1,188 @@
-"""Labelling of the markers and their calibration, without the screen."""
+"""Labelling of the markers and their calibration, without the screen: labels of a frame, verdict, remedy."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from carpus.core.calibration.calibrate import MeasuredHand
-from carpus.core.calibration.hand_calibrator import FoundMarker, HandCalibrator
-from carpus.core.calibration.result import Verdict
-from carpus.core.model.types import FloatArray, Frame
+from carpus.core.calibration.result import ALL_STRAIGHT, Clicks, Verdict
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import FloatArray, Frame, Side
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.button import ENTER_KEY
-from carpus.ui.kit.translate import tr
-from carpus.ui.screens.markers.label_state import LabelState
-from carpus.ui.screens.tour.bubbles import LabelStage
+from carpus.ui.screens.tour.bubble import LabelStage
+from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator, LabelProposal
+
+SAME_MARKER_PX = 3.0
+"""Pixels closer than this are on the same marker."""
+
+
+@dataclass(slots=True)
+class LabelState:
+    """Labels of one frame.
+
+    Attributes
+    ----------
+    confirmed_px : dict
+        Pixel by marker, in the order they were set.
+    current : str
+        Marker to be clicked next.
+    is_chosen : bool
+        True if a person went to the current marker.
+    proposals : dict
+        Labels proposed by the program and not confirmed.
+    """
+
+    protocol: MarkerProtocol
+    side: Side
+    confirmed_px: dict[str, FloatArray] = field(default_factory=dict)
+    widths_px: dict[str, float] = field(default_factory=dict)
+    current: str = ""
+    is_chosen: bool = False
+    proposals: dict[str, LabelProposal] = field(default_factory=dict)
+    straight_fingers: tuple[bool, ...] = ALL_STRAIGHT
+
+    def __post_init__(self) -> None:
+        self.current = self.protocol.markers[0]
+
+    @property
+    def label_px(self) -> dict[str, FloatArray]:
+        """Pixel of each label, confirmed or proposed."""
+        return {name: one.pixel for name, one in self.proposals.items()} | self.confirmed_px
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        return tuple(name for name in self.protocol.markers if name not in self.confirmed_px)
+
+    @property
+    def is_complete(self) -> bool:
+        return not self.missing
+
+    @property
+    def open_markers(self) -> tuple[str, ...]:
+        return tuple(name for name in self.missing if name not in self.proposals)
+
+    @property
+    def doubtful(self) -> tuple[str, ...]:
+        """Proposals that another label would fit nearly as well."""
+        return tuple(name for name in self.missing if name in self.proposals and not self.proposals[name].is_sure)
+
+    def set_proposals(self, proposals: Mapping[str, LabelProposal]) -> None:
+        """Replace the proposals of markers that are not confirmed."""
+        self.proposals = {name: proposals[name] for name in self.missing if name in proposals}
+        if not (self.is_chosen and self.current in self.missing):
+            self.current = (self.open_markers or self.missing or (self.current,))[0]
+
+    def accept_all(self) -> None:
+        for name in self.protocol.markers:
+            if name in self.proposals and name not in self.confirmed_px:
+                self.confirmed_px[name] = self.proposals[name].pixel
+                self.widths_px[name] = self.proposals[name].width_px
+        self.proposals.clear()
+        self._advance()
+
+    def confirm(self, name: str) -> None:
+        one = self.proposals.pop(name)
+        self.confirmed_px[name], self.widths_px[name] = one.pixel, one.width_px
+        self._advance()
+
+    def is_proposed_at(self, pixel: FloatArray) -> bool:
+        """Tell whether the current marker is proposed at this pixel."""
+        mine = self.proposals.get(self.current)
+        return mine is not None and _is_same_place(mine.pixel, pixel)
+
+    def find_owner(self, pixel: FloatArray) -> str:
+        """Return the label of a person at this pixel, if the current marker has none to swap; else empty."""
+        if self.current in self.label_px:
+            return ""
+        return next((name for name, other in self.confirmed_px.items() if _is_same_place(other, pixel)), "")
+
+    def set_label(self, pixel: FloatArray, width_px: float) -> bool:
+        """Label the current marker and go to the next one; return True if two labels were swapped.
+
+        Another label at this pixel moves to the current marker's former place, or is removed.
+        """
+        places = self.label_px
+        had_place = places.pop(self.current, None) is not None
+        swapped = had_place and any(_is_same_place(place, pixel) for place in places.values())
+        mine = self.proposals.pop(self.current, None)
+        before = self.confirmed_px.pop(self.current, None)
+        before_width_px = self.widths_px.get(self.current, width_px)
+        for name in [name for name, other in self.confirmed_px.items() if _is_same_place(other, pixel)]:
+            if before is not None:
+                self.confirmed_px[name], self.widths_px[name] = before, before_width_px
+            elif mine is not None:
+                self.confirmed_px[name], self.widths_px[name] = mine.pixel, mine.width_px
+        for name in [name for name, one in self.proposals.items() if _is_same_place(one.pixel, pixel)]:
+            del self.proposals[name]
+            if before is not None:
+                self.proposals[name] = LabelProposal(before, before_width_px, is_sure=True)
+            elif mine is not None:
+                self.proposals[name] = mine
+        self.confirmed_px[self.current] = np.asarray(pixel, dtype=np.float64)
+        self.widths_px[self.current] = width_px
+        self._advance()
+        return swapped
+
+    def undo(self) -> str:
+        """Remove the label set last and return its name; empty if there is none."""
+        if not self.confirmed_px:
+            return ""
+        name, _ = self.confirmed_px.popitem()
+        self.current = name
+        return name
+
+    def clear(self, names: Sequence[str]) -> None:
+        """Remove some labels, or all without ``names``."""
+        for name in names:
+            self.confirmed_px.pop(name, None)
+        if not names:
+            self.confirmed_px.clear()
+            self.proposals.clear()
+            self.current, self.is_chosen = self.protocol.markers[0], False
+        else:
+            self._advance()
+
+    def step(self, by: int) -> None:
+        self.choose(
+            self.protocol.markers[(self.protocol.markers.index(self.current) + by) % len(self.protocol.markers)]
+        )
+
+    def choose(self, name: str) -> None:
+        """Go to a marker; later proposals do not change it."""
+        self.current, self.is_chosen = name, True
+
+    def find_near(self, pixel: FloatArray, reach_px: float) -> str:
+        """Return the marker labelled within reach of a pixel, empty for none."""
+        distances = {name: float(np.hypot(*(place - pixel))) for name, place in self.label_px.items()}
+        name = min(distances, key=lambda key: distances[key], default="")
+        return name if name and distances[name] <= reach_px else ""
+
+    def clicks(self) -> Clicks:
+        return Clicks(
+            self.side,
+            self.protocol,
+            np.array([self.confirmed_px[name] for name in self.protocol.markers]),
+            self.straight_fingers,
+        )
+
+    def _advance(self) -> None:
+        self.is_chosen = False
+        missing = self.open_markers or self.missing
+        if missing:
+            after = [
+                name
+                for name in missing
+                if self.protocol.markers.index(name) > self.protocol.markers.index(self.current)
+            ]
+            self.current = (after or list(missing))[0]
+
+
+def _is_same_place(one: FloatArray, other: FloatArray) -> bool:
+    return float(np.hypot(*(one - other))) < SAME_MARKER_PX
 
 
 class LabellingController(QObject):
@@ -36,9 +202,9 @@ class LabellingController(QObject):
     def __init__(self, background: Background) -> None:
         super().__init__()
         self._background = background
-        self.calibrator: HandCalibrator | None = None
+        self.calibrator: Calibrator | None = None
         self.labels: LabelState | None = None
-        self.outcome: MeasuredHand | None = None
+        self.outcome: CalibrationAssessment | None = None
         """Assessment of the present labels, None before."""
         self.start_angles_rad = np.zeros(3)
         self.is_proposing = False
@@ -46,7 +212,7 @@ class LabellingController(QObject):
         self._is_manual = self._starts_if_good = False
         self._proposing = self._judging = 0
 
-    def open_calibrator(self, calibrator: HandCalibrator) -> None:
+    def open_calibrator(self, calibrator: Calibrator) -> None:
         self.calibrator, self.start_angles_rad = calibrator, np.zeros(3)
         self.reset()
 
@@ -54,14 +220,16 @@ class LabellingController(QObject):
         """Return to the live frame; results that are still computed are dropped."""
         self.labels = self.outcome = None
         self._judging += 1
+        self._drop_proposals()
+
+    def _drop_proposals(self) -> None:
         self._proposing += 1
         self.is_proposing = False
 
     def freeze_frame(self) -> Frame:
-        assert self.calibrator is not None
         calibrator = self.calibrator
-        frame = calibrator.freeze_frame()
-        straight = calibrator.previous_straight_fingers
+        assert calibrator is not None
+        frame, straight = calibrator.freeze_frame(), calibrator.previous_straight_fingers
         self.labels = LabelState(calibrator.protocol, calibrator.side, straight_fingers=straight)
         self.outcome, self._is_manual = None, False
         return frame
@@ -99,14 +267,13 @@ class LabellingController(QObject):
 
     def request_proposals(self) -> None:
         """Propose labels for the other markers, given those that a person has set."""
-        self._proposing += 1
-        self.is_proposing = False
+        self._drop_proposals()
         if self._is_manual or self.labels is None or self.calibrator is None or self.labels.is_complete:
             return
         number, calibrator, named = self._proposing, self.calibrator, dict(self.labels.confirmed_px)
         self.is_proposing = True
 
-        def handle_proposals(proposed: Mapping[str, FoundMarker]) -> None:
+        def handle_proposals(proposed: Mapping[str, LabelProposal]) -> None:
             if number != self._proposing or self.labels is None:
                 return
             self.is_proposing = False
@@ -148,8 +315,7 @@ class LabellingController(QObject):
     def label_manually(self) -> None:
         """Stop proposing labels."""
         self._is_manual = True
-        self._proposing += 1
-        self.is_proposing = False
+        self._drop_proposals()
         if self.labels is not None:
             self.labels.set_proposals({})
             self.request_verdict()
@@ -176,7 +342,7 @@ class LabellingController(QObject):
             return
         clicks, angles = self.labels.clicks(), self.start_angles_rad
 
-        def handle_verdict(outcome: MeasuredHand) -> None:
+        def handle_verdict(outcome: CalibrationAssessment) -> None:
             if number != self._judging:
                 return
             self.outcome = outcome
@@ -271,14 +437,3 @@ def find_swapped(verdict: Verdict) -> list[tuple[str, str]]:
 def find_faulty_markers(verdict: Verdict) -> tuple[str, ...]:
     """Return the markers of all findings."""
     return tuple(dict.fromkeys(name for finding in verdict.findings for name in finding.markers))
-
-
-def remedy_face(remedy: Remedy) -> tuple[str, str]:
-    """Return text and key of the primary button."""
-    return {
-        "swap": (tr("Swap the two"), ENTER_KEY),
-        "click_these": (tr("Click the marker again"), "C"),
-        "correct": (tr("Correct labels"), ""),
-        "take_spot": (tr("Use that spot"), ""),
-        "new_picture": (tr("New image"), "N"),
-    }[remedy]

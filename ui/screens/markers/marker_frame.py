@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
-from PySide6.QtGui import QColor, QFontMetricsF, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
-from carpus.core.calibration.hand_calibrator import FoundMarker
+from carpus.core.model.hand.protocols import CHAIN_NAMES
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
-from carpus.ui.kit.fonts import SEMIBOLD, font
 from carpus.ui.kit.theme import (
     CARD_RADIUS_PX,
     DARK,
@@ -28,7 +26,8 @@ from carpus.ui.picture.label_placement import place_label
 from carpus.ui.picture.overlay import draw_with_halo
 from carpus.ui.picture.photo import label_size, paint_label, paint_wrong_label
 from carpus.ui.picture.view import FrameView
-from carpus.ui.screens.markers.label_state import LabelState
+from carpus.ui.screens.markers.labelling import LabelState
+from carpus.ui.shell.view_models import FoundMarker
 from carpus.ui.words.marker_words import finger_name, marker_title
 
 LOUPE_PX, LOUPE_ZOOM = 204, 8.0
@@ -42,27 +41,8 @@ ARROWS = {
 }  # fmt: skip
 BIG_STEP_PX = 10.0
 ON_PICTURE_DOUBTFUL = DARK.warn
-
-
 MAX_FULL_LABELS = 6
 """Up to this many markers each show their name."""
-
-
-@dataclass(frozen=True, slots=True)
-class LabelPlate:
-    """Place of a label, and the line to its ring if it is further away."""
-
-    name: str
-    words: str
-    plate: QRectF
-    line: QLineF | None
-
-
-def finger_chains(markers: Sequence[str]) -> list[list[str]]:
-    """Return the markers of each finger from the wrist on."""
-    fingers = [["WRIST", "CMC1", "MCP1", "IP1", "TIP1"]]
-    fingers += [["WRIST", *(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP"))] for k in (2, 3, 4, 5)]
-    return [[name for name in finger if name in markers] for finger in fingers]
 
 
 class MarkerFrameView(FrameView):
@@ -77,9 +57,11 @@ class MarkerFrameView(FrameView):
         self.labels: LabelState | None = None
         self.cursor_px: FloatArray | None = None
         self.found_marker: FoundMarker | None = None
-        self.wrong_labels: frozenset[str] = frozenset()
+        self.wrong_labels: Sequence[str] = ()
         self.questioned_blobs: list[tuple[tuple[float, ...], str]] = []
+        """Spots (u, v) in question, each with its possible marker or an empty text."""
         self.blobs_px: FloatArray = np.empty((0, 2))
+        """All candidates (D, 2), which labels must not cover."""
         self.no_marker_words = ""
         self._dragged = ""
         self._label_boxes: dict[str, QRectF] = {}
@@ -89,20 +71,6 @@ class MarkerFrameView(FrameView):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         self.setAccessibleName(self.tr("Image to click the markers on"))
-
-    def show_wrong(self, names: Collection[str]) -> None:
-        self.wrong_labels = frozenset(names)
-        self.update()
-
-    def show_questioned_blobs(self, spots: Sequence[tuple[Sequence[float], str]]) -> None:
-        """Mark spots (u, v) in question, each with its possible marker or an empty text."""
-        self.questioned_blobs = [(tuple(pixel), name) for pixel, name in spots]
-        self.update()
-
-    def show_blobs(self, pixel: FloatArray) -> None:
-        """Set all candidates (D, 2), which labels must not cover."""
-        self.blobs_px = pixel
-        self.update()
 
     def clear_cursor(self) -> None:
         """Remove the cursor, which belongs to another frame."""
@@ -221,8 +189,8 @@ class MarkerFrameView(FrameView):
         """Paint proposals as dashed rings, joined by finger: a wrong label shows as a crossing line."""
         at = {name: self.to_screen(*map(float, pixel)) for name, pixel in labels.label_px.items()}
         painter.setPen(QPen(QColor(255, 255, 255, 170), 1.5))
-        for ray in finger_chains(labels.protocol.markers) if labels.protocol.has_fingers else ():
-            known = [at[name] for name in ray if name in at]
+        for chain in CHAIN_NAMES if labels.protocol.has_fingers else ():
+            known = [at[name] for name in chain if name in at]
             for a, b in pairwise(known):
                 painter.drawLine(a, b)
         for name, one in labels.proposals.items():
@@ -243,33 +211,31 @@ class MarkerFrameView(FrameView):
                 lambda at=at, r=radius: painter.drawEllipse(at, r, r),  # type: ignore[misc]
                 dash=True,
             )
-            words, plate = self._question_words(name), self._question_plate(pixel, name)
-            painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
-            paint_label(painter, self._theme, words, plate.left(), plate.top())
+            plate = self._question_plate(pixel, name)
+            paint_label(painter, self._theme, self._question_words(name), plate.left(), plate.top())
 
     def _question_words(self, name: str) -> str:
         return self.tr("{marker}?").format(marker=marker_title(name)) if name else self.tr("What is this?")
 
     def _question_plate(self, pixel: Sequence[float], name: str) -> QRectF:
         at, away = self.to_screen(*map(float, pixel)), MIN_RING_PX + 8.0
-        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
-        width = metrics.horizontalAdvance(self._question_words(name)) + 12
-        left = at.x() + away if at.x() + away + width < self.width() else at.x() - away - width
-        return QRectF(left, at.y() - 10, width, metrics.height() + 5)
+        size = label_size(self._theme, self._question_words(name))
+        left = at.x() + away if at.x() + away + size.width() < self.width() else at.x() - away - size.width()
+        return QRectF(QPointF(left, at.y() - 10), size)
 
     def _label_words(self, name: str, labels: LabelState) -> str:
         """Return the text of a label; with many markers only of fingertips and doubtful ones."""
         one = labels.proposals.get(name)
         under_cursor = self.found_marker is not None and labels.find_near(self.found_marker.pixel, 3.0) == name
         full = (
-            len(labels.order) <= MAX_FULL_LABELS
+            len(labels.protocol.markers) <= MAX_FULL_LABELS
             or under_cursor
             or name in self.wrong_labels
             or (one is not None and not one.is_sure)
         )
         if full or name in ("WRIST", "CMC1") or (name == labels.current and name not in labels.proposals):
             words = marker_title(name)
-            asked = one is not None and (len(labels.order) <= MAX_FULL_LABELS or not one.is_sure)
+            asked = one is not None and (len(labels.protocol.markers) <= MAX_FULL_LABELS or not one.is_sure)
             return self.tr("{marker}?").format(marker=words) if asked else words
         return finger_name(name[-1]) if name.startswith("TIP") else ""
 
@@ -277,9 +243,9 @@ class MarkerFrameView(FrameView):
         painter.drawLine(QPointF(at.x() - arm, at.y()), QPointF(at.x() + arm, at.y()))
         painter.drawLine(QPointF(at.x(), at.y() - arm), QPointF(at.x(), at.y() + arm))
 
-    def label_plates(self, rings: Sequence[tuple[str, QPointF, float]], proposed: str) -> list[LabelPlate]:
-        """Place each label beside its ring, clear of all markers, the magnifier and other labels."""
-        metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
+    def _paint_labels(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
+        """Paint each label beside its ring, clear of all markers, the magnifier and other labels."""
+        assert self.labels is not None
         named = [QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r) for _, at, r in rings]
         bare = [self.to_screen(*map(float, pixel)) for pixel in self.blobs_px]
         bare = [at for at in bare if not any(box.contains(at) for box in named)]
@@ -288,8 +254,8 @@ class MarkerFrameView(FrameView):
         taken = [*named, *free, QRectF(0, self.height() - 160, 176, 160)]
         taken += [self.loupe_box()] if self.cursor_px is not None else []
         taken += [self._question_plate(pixel, name) for pixel, name in self.questioned_blobs]
-        assert self.labels is not None
-        out: list[LabelPlate] = []
+        inside, lines = QRectF(self.rect()).adjusted(4, 4, -4, -4), list[QLineF]()
+        boxes: dict[str, QRectF] = {}
         for name, at, radius in rings:
             words = marker_title(name) if name == proposed else self._label_words(name, self.labels)
             if not words:
@@ -298,36 +264,30 @@ class MarkerFrameView(FrameView):
                 words = self.tr("{marker}?").format(marker=words)
             wrong = name in self.wrong_labels
             others = [other for one, other, _ in rings if one != name] + bare
-            lines = [one.line for one in out if one.line is not None]
-            inside = QRectF(self.rect()).adjusted(4, 4, -4, -4)
             for said in (words, self._shorten(name, words)):
-                size = QSizeF(metrics.horizontalAdvance(said) + (30 if wrong else 12), metrics.height() + 5)
+                size = label_size(self._theme, said) + QSizeF(18.0 if wrong else 0.0, 0.0)
                 found = place_label(size, at, radius, taken, others, inside, lines)
-                if found is not None:  # a name over another, or at another's disc, says something wrong
-                    taken.append(found[0])
-                    out.append(LabelPlate(name, said, *found))
-                    break
-        return out
+                if found is None:  # a name over another, or at another's disc, says something wrong
+                    continue
+                boxes[name], line = found
+                taken.append(boxes[name])
+                if line is not None:
+                    lines.append(line)
+                    draw_with_halo(painter, ON_PICTURE_LINE, 1.5, partial(painter.drawLine, line))
+                if wrong:
+                    paint_wrong_label(painter, self._theme, said, boxes[name])
+                else:
+                    paint_label(painter, self._theme, said, boxes[name].left(), boxes[name].top())
+                break
+        if not self._dragged:
+            self._label_boxes = {name: box for name, box in boxes.items() if name in self.labels.label_px}
 
     def _shorten(self, name: str, words: str) -> str:
         """Return the finger alone for a knuckle, where there is no space for more."""
         assert self.labels is not None
-        if len(self.labels.order) > MAX_FULL_LABELS or not name.startswith("MCP"):
+        if len(self.labels.protocol.markers) > MAX_FULL_LABELS or not name.startswith("MCP"):
             return words
         return words.replace(marker_title(name), finger_name(name[-1]))
-
-    def _paint_labels(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
-        painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
-        placed = self.label_plates(rings, proposed)
-        if not self._dragged and self.labels is not None:
-            self._label_boxes = {one.name: one.plate for one in placed if one.name in self.labels.label_px}
-        for one in placed:
-            if one.line is not None:
-                draw_with_halo(painter, ON_PICTURE_LINE, 1.5, partial(painter.drawLine, one.line))
-            if one.name in self.wrong_labels:
-                paint_wrong_label(painter, self._theme, one.words, one.plate)
-            else:
-                paint_label(painter, self._theme, one.words, one.plate.left(), one.plate.top())
 
     def loupe_box(self) -> QRectF:
         """Return the place of the magnifier: the upper corner that covers fewer markers."""

@@ -9,7 +9,6 @@ from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt, QTimer
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QBoxLayout, QWidget
 
-from carpus.core.calibration.hand_calibrator import HandCalibrator
 from carpus.core.model.fault_text import marker_name
 from carpus.core.model.types import ByteImage, FloatArray
 from carpus.ui.kit.background import Background
@@ -22,9 +21,15 @@ from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.picture.photo import Photo, label_size
 from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR
 from carpus.ui.screens.markers.guidance import COLUMN_PX, GuidancePanel, StartAngleDialog
-from carpus.ui.screens.markers.label_state import LabelState
-from carpus.ui.screens.markers.labelling import LabellingController, Remedy, find_faulty_markers, find_swapped
+from carpus.ui.screens.markers.labelling import (
+    LabellingController,
+    LabelState,
+    Remedy,
+    find_faulty_markers,
+    find_swapped,
+)
 from carpus.ui.screens.markers.marker_frame import MarkerFrameView
+from carpus.ui.shell.view_models import Calibrator
 from carpus.ui.words import terms
 
 PREVIEW_EVERY_MS = 60
@@ -46,11 +51,8 @@ class MarkersScreen(FittedWidget):
         self.previous_photo = PreviousPhoto(theme, self.picture)
         self.guidance = GuidancePanel(theme)
         self._is_fitting = False
-        self.bubble, self.primary_button, self.second_button = (
-            self.guidance.bubble,
-            self.guidance.primary_button,
-            self.guidance.second_button,
-        )
+        self.bubble = self.guidance.bubble
+        self.primary_button, self.second_button = self.guidance.primary_button, self.guidance.second_button
         self.start_angle_button = Button(theme, self.tr("Wrist cannot reach neutral…"), "quiet", height_px=32)
         self.start_anyway_button = Button(theme, self.tr("Start anyway (&uncertain)"), "quiet", height_px=32)
         self.accept_all_button = Button(theme, self.tr("All labels are correct"), "quiet", height_px=32)
@@ -70,15 +72,10 @@ class MarkersScreen(FittedWidget):
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
         below.addWidget(self.hint, 1)
-        buttons = row_layout(STRETCH)
-        for button in (
-            self.new_frame_button,
-            self.start_angle_button,
-            self.accept_all_button,
-            self.click_again_button,
+        buttons = row_layout(
+            STRETCH, self.new_frame_button, self.start_angle_button, self.accept_all_button, self.click_again_button,
             self.start_anyway_button,
-        ):
-            buttons.addWidget(button)
+        )  # fmt: skip
         for button in (self.accept_all_button, self.click_again_button, self.start_anyway_button):
             button.hide()
         below.addLayout(buttons)
@@ -143,16 +140,10 @@ class MarkersScreen(FittedWidget):
         """Labels of the frozen frame, None before."""
         return self.labelling.labels
 
-    @property
-    def has_labels(self) -> bool:
-        return self.labels is not None and bool(self.labels.confirmed_px)
-
     def initial_focus(self) -> QWidget:
         return self.picture
 
-    def open_calibrator(
-        self, calibrator: HandCalibrator, last_rgb: ByteImage | None = None, last_day: str = ""
-    ) -> None:
+    def open_calibrator(self, calibrator: Calibrator, last_rgb: ByteImage | None = None, last_day: str = "") -> None:
         self.labelling.open_calibrator(calibrator)
         self.picture.labels = None  # of another picture
         self._show_start_angles()
@@ -187,12 +178,11 @@ class MarkersScreen(FittedWidget):
         self.picture.clear_cursor()
         self.picture.labels = self.labels
         self.guidance.straight_fingers.show_answer(calibrator.previous_straight_fingers)
-        self.picture.show_wrong(())
-        self.picture.show_questioned_blobs(())
+        self._clear_verdict()
         self.picture.show_frame(frame.color_rgb)
         room = HAND_AREA_FACTOR if calibrator.protocol.has_fingers else PALM_AREA_FACTOR
         self.picture.set_hand_area(calibrator.hand_area(), room)
-        self.picture.show_blobs(calibrator.candidate_px())
+        self.picture.blobs_px = calibrator.candidate_px()
         self.labelling.request_proposals()
         self._refresh()
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -237,11 +227,11 @@ class MarkersScreen(FittedWidget):
 
     def _toggle_straight(self, number: int) -> None:
         if self.guidance.straight_fingers.isVisible():
-            self.guidance.straight_fingers.toggle(number)
+            self.guidance.straight_fingers.buttons[number - 1].click()
 
     def _clear_verdict(self) -> None:
-        self.picture.show_wrong(())
-        self.picture.show_questioned_blobs(())
+        self.picture.wrong_labels, self.picture.questioned_blobs = (), []
+        self.picture.update()
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _set_start_angles(self, angles_rad: FloatArray) -> None:
@@ -251,13 +241,9 @@ class MarkersScreen(FittedWidget):
             self.labelling.request_verdict()
 
     def _show_start_angles(self) -> None:
-        words, pattern = (
-            terms.start_angle_words(self.labelling.start_angles_rad),
-            self.tr("Start position {angles} (entered)"),
-        )
-        self.start_angle_button.set_label(
-            pattern.format(angles=words) if words else self.tr("Wrist cannot reach neutral…")
-        )
+        angles = terms.start_angle_words(self.labelling.start_angles_rad)
+        entered = self.tr("Start position {angles} (entered)").format(angles=angles)
+        self.start_angle_button.set_label(entered if angles else self.tr("Wrist cannot reach neutral…"))
 
     # --- what the buttons do ------------------------------------------------------------------------------
     def _on_primary(self) -> None:
@@ -299,12 +285,8 @@ class MarkersScreen(FittedWidget):
 
     # --- showing ------------------------------------------------------------------------------------------
     def _refresh(self) -> None:
-        naming, clicking, outcome, calibrator = (
-            self.labelling,
-            self.labels,
-            self.labelling.outcome,
-            self.labelling.calibrator,
-        )
+        naming, clicking = self.labelling, self.labels
+        outcome, calibrator = naming.outcome, naming.calibrator
         if calibrator is None:
             return
         self.new_frame_button.setEnabled(clicking is not None)
@@ -324,14 +306,14 @@ class MarkersScreen(FittedWidget):
             self.guidance.show_preview(calibrator)
             self.hint.setText("")
         elif outcome is None:
-            sees_none = not clicking.confirmed_px and len(calibrator.candidate_px()) < MIN_MARKERS
+            sees_none = not clicking.confirmed_px and calibrator.count_candidates() < MIN_MARKERS
             self.guidance.show_labelling(clicking, sees_none=sees_none, is_proposing=naming.is_proposing)
             self.hint.setText(self.tr("The hand lies flat and still, palm down. Fingers that stay bent are fine."))
         else:
             wrong = find_faulty_markers(outcome.verdict)
-            self.picture.show_wrong(wrong)
+            self.picture.wrong_labels = wrong
             spots = [one for one in outcome.verdict.findings if one.spot_px]
-            self.picture.show_questioned_blobs([(one.spot_px, one.markers[0] if one.markers else "") for one in spots])
+            self.picture.questioned_blobs = [(one.spot_px, one.markers[0] if one.markers else "") for one in spots]
             self.guidance.show_verdict(clicking, outcome, remedy)
             if doubtful:
                 self.click_again_button.set_label(self.tr("Click these again") if wrong else self.tr("Click all again"))

@@ -162,7 +162,7 @@ class PatientView(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(self._theme.color("accent"), 4, Qt.PenStyle.DashLine))
             painter.drawPath(to.map(goal.hand))
-        self._paint_hand(painter, to, hand if hand is not None else None, arm=build_pose(exercise, 0.0))
+        self._paint_hand(painter, to, hand, arm=build_pose(exercise, 0.0))
         self._paint_goal(painter, to, exercise)
 
     def _paint_hand(
@@ -182,7 +182,7 @@ class PatientView(QWidget):
         painter.setPen(
             QPen(color("text2"), line, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
         )
-        painter.setBrush(_skin_color(self._theme, self.audience))
+        painter.setBrush(color("warn_soft" if self.audience == "child" else "soft"))
         for path in (hand.hand_and_arm, *hand.digits):
             painter.drawPath(to.map(path))
         painter.setPen(Qt.PenStyle.NoPen)
@@ -205,7 +205,7 @@ class PatientView(QWidget):
         painter.save()
         painter.setOpacity(scene.opacity)
         if child:
-            paint_stem(painter, self._theme, way, wide)
+            self._stroke(painter, way, wide, color("good"))  # a stem
             ahead = to.map(arc.point(scene.direction * (along + 1.0))) - to.map(arc.point(scene.direction * along))
             paint_climber(painter, self._theme, to.map(arc.point(scene.direction * along)), ahead, 0.85 * wide)
         else:
@@ -251,10 +251,6 @@ class PatientView(QWidget):
         painter.drawPath(path)
 
 
-def _skin_color(theme: Theme, audience: Audience) -> QColor:
-    return theme.color("warn_soft" if audience == "child" else "soft")
-
-
 def _placement(exercise: Exercise, width: float, *, mirrored: bool) -> QTransform:
     """Return the transform of the figure to the right of the texts."""
     to = QTransform()
@@ -262,17 +258,17 @@ def _placement(exercise: Exercise, width: float, *, mirrored: bool) -> QTransfor
         at, scale = QPointF(0.66 * width, 560.0), 0.95
     elif exercise.angle == FLEXION:
         at, scale = QPointF((0.60 if mirrored else 0.50) * width, 470.0), 0.98
-    elif exercise.angle is not None or not exercise.digits or _is_seen_from_above(exercise):
+    elif (
+        exercise.angle is not None
+        or not exercise.digits
+        or (exercise.joint.startswith("MCP") and exercise.joint.endswith("abduction"))
+    ):  # seen from above
         at, scale = QPointF(0.68 * width, 790.0), 1.3
     else:
         at, scale = QPointF((0.84 if mirrored else 0.40) * width, 400.0), 1.5
     to.translate(at.x(), at.y())
     to.scale(-scale if mirrored else scale, scale)
     return to
-
-
-def _is_seen_from_above(exercise: Exercise) -> bool:
-    return exercise.joint.startswith("MCP") and exercise.joint.endswith("abduction")
 
 
 def _draw_fitted_text(
@@ -303,13 +299,6 @@ def _draw_fitted_text(
 
 
 PETALS = 7
-
-
-def paint_stem(painter: QPainter, theme: Theme, way: QPainterPath, wide: float) -> None:
-    """Paint the way that was done as a stem."""
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.setPen(QPen(theme.color("good"), wide, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-    painter.drawPath(way)
 
 
 def paint_climber(painter: QPainter, theme: Theme, at: QPointF, ahead: QPointF, half: float) -> None:

@@ -91,7 +91,8 @@ class PatientViewController(QObject):
             self._show_lasting_scene(GuideScene("rest", done=done, asked=asked, rest_share=share, rest_s=left_s))
 
     def show_done(self) -> None:
-        self._show_lasting_scene(GuideScene("done", asked=self._marks_asked, done=self._marks_done))
+        scene = self.window.view.scene if self.window is not None else GuideScene()
+        self._show_lasting_scene(GuideScene("done", asked=scene.asked, done=scene.done))
 
     def clear(self) -> None:
         """Remove the hand when measuring has ended."""
@@ -105,14 +106,6 @@ class PatientViewController(QObject):
 
     def show_content(self) -> None:
         self._is_hidden = False
-
-    @property
-    def _marks_asked(self) -> int:
-        return self.window.view.scene.asked if self.window is not None else 0
-
-    @property
-    def _marks_done(self) -> int:
-        return self.window.view.scene.done if self.window is not None else 0
 
     def _show_lasting_scene(self, scene: GuideScene) -> None:
         if self.window is not None and not self._is_hidden:

@@ -42,14 +42,13 @@ MIN_TABLE_PX = 84
 
 
 class ReviewCard(Card):
-    """Emits ``comparison_requested`` with the session that is best compared with this one."""
-
-    comparison_requested = Signal(str)
+    """Title, buttons and tables of a session."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 20)
         self._theme = theme
-        self._partner_id = ""
+        self.partner_id = ""
+        """The session that is best compared with this one."""
         self.title = Text(theme, self.tr("Range of motion"), 16, SEMIBOLD)
         self.title.setMinimumWidth(1)
         self.count_text = ElidedText(
@@ -65,7 +64,6 @@ class ReviewCard(Card):
         self.report_button = Button(
             theme, self.tr("Make report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
         )
-        self.compare_button.clicked.connect(lambda: self.comparison_requested.emit(self._partner_id))
         self.tables = ResultTables(theme)
         text = self._heading = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         text.setSpacing(12)
@@ -108,7 +106,7 @@ class ReviewCard(Card):
     def _show_partner(self, reviewed: ReviewedSession) -> None:
         """Enable the comparison if there is a session to compare with."""
         partner = find_partner(reviewed.history, reviewed.results)
-        self._partner_id = "" if partner is None else partner.session_id
+        self.partner_id = "" if partner is None else partner.session_id
         self.compare_button.setEnabled(partner is not None)
         words = self.tr("No other session of this exercise yet.")
         if partner is not None:

@@ -10,7 +10,7 @@ from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.platform.durable import replace_file
 from carpus.core.records.corrections import Corrections
 from carpus.ui.screens.export.flow import ExportController
-from carpus.ui.screens.review.hand_image import HandImage, draw_hand_image
+from carpus.ui.screens.review.frame_view import HandImage, draw_hand_image
 from carpus.ui.screens.review.screen import ReviewScreen
 from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.shell.messages import Answer
@@ -27,13 +27,15 @@ class ReviewFlow(Flow):
         screen, way = self.screen, context.navigator
         self.exporting = ExportController(context)
         screen.fault_raised.connect(context.messages.show_fault)
-        screen.report_requested.connect(lambda session_id: way.open_screen("report", session_id))
-        screen.export_requested.connect(self.exporting.choose_formats)
         screen.hand_image_requested.connect(self.save_hand_image)
-        screen.comparison_requested.connect(lambda one, other: way.open_screen("comparison", one, other))
         screen.correction_requested.connect(lambda *where: way.open_screen("correct", *where))
-        screen.version_chosen.connect(self.open)
-        screen.restore_requested.connect(self._restore_version)
+        card, versions = screen.card, screen.card.tables.versions
+        card.report_button.clicked.connect(lambda: way.open_screen("report", screen.session_id))
+        card.export_button.clicked.connect(lambda: self.exporting.choose_formats(screen.session_id))
+        card.compare_button.clicked.connect(lambda: way.open_screen("comparison", screen.session_id, card.partner_id))
+        card.repeat_button.clicked.connect(lambda: way.open_screen("live"))
+        versions.chosen.connect(self.open)
+        versions.restore_requested.connect(self._restore_version)
         screen.charts.curves.menu.saved.connect(
             lambda path: self.register_exports([path], [context.current.session_id])
         )

@@ -119,9 +119,7 @@ class ReviewedSession:
     # --- what a person chooses ----------------------------------------------------------------------------
     def include_repetition(self, number: int) -> RepetitionChoices:
         reasons = {n: words for n, words in self.choices.excluded.items() if n != number}
-        if (
-            self.results.repetitions[number].exclusion_reason == PASSIVE
-        ):  # also where that was said while it was measured
+        if self.results.repetitions[number].exclusion_reason == PASSIVE:  # also if noted during the recording
             reasons[number] = ""
         return replace(self.choices, excluded=reasons)
 

@@ -2,54 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.model.types import TrackStatus
-from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices, RepetitionResult
 from carpus.core.results.session_results import SessionResults
-from carpus.ui.charts.session import find_nearest_row
+from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot, find_nearest_row
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import Card, KeyCaps
 from carpus.ui.kit.dialog import Dialog
+from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.keys import bind_screen_keys
-from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, row_layout, scroll_page
-from carpus.ui.kit.text import Text
+from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, fill, row_layout, scroll_page
+from carpus.ui.kit.text import MEDIUM, Text
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from carpus.ui.picture.playback_controls import PlaybackClock
+from carpus.ui.picture.playback_controls import PlaybackClock, PlaybackControls, TimeSlider, clock_words
 from carpus.ui.screens.review.card import ReviewCard
-from carpus.ui.screens.review.charts import Player, ReviewCharts
-from carpus.ui.screens.review.frame_view import ReviewFrameView
-from carpus.ui.screens.review.hand_image import HandImage, HandImageDialog, build_hand_image
+from carpus.ui.screens.review.frame_view import HandImage, HandImageDialog, ReviewFrameView, build_hand_image
 from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
+from carpus.ui.words.finger_angles import FINGERS, find_finger_angle
+from carpus.ui.words.marker_words import finger_name
 
 if TYPE_CHECKING:
     from carpus.core.records.data_folder import DataFolder
 
+# Instead of a finger's number: the three wrist angles.
+WRIST = -1
 EDGE_STEP_S = 0.1
 
 
 class ReviewScreen(FittedWidget):
-    """Review of one session.
+    """Review of one session; the flow connects the buttons of its card.
 
-    Emits the session id for ``report_requested``, ``export_requested`` and ``comparison_requested`` (with that of the
-    other session); ``correction_requested`` with session and row; ``version_chosen`` and ``restore_requested`` with
-    the id of another result version.
+    ``correction_requested`` carries session id, session and row.
     """
 
-    report_requested = Signal(str)
-    comparison_requested = Signal(str, str)
-    export_requested = Signal(str)
-    repeat_requested = Signal()
     correction_requested = Signal(str, object, int)
-    version_chosen = Signal(str)
-    restore_requested = Signal(str)
     hand_image_requested = Signal(HandImage)
     fault_raised = Signal(object)
     session_shown = Signal()
@@ -57,7 +53,7 @@ class ReviewScreen(FittedWidget):
     def __init__(self, theme: Theme, background: Background, store: DataFolder) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
-        self._session_id = ""
+        self.session_id = ""
         self._whole_hand = self._tight = False
         self.reviewed: ReviewedSession | None = None
         self._earlier_choices: list[RepetitionChoices] = []  # of the session shown, the last one last
@@ -98,26 +94,20 @@ class ReviewScreen(FittedWidget):
             self.card.fit(self._column, self.height(), tight=tight, whole_hand=self._whole_hand)
 
     def _connect(self) -> None:
-        curves, card = self.charts.curves, self.card
+        curves = self.charts.curves
         self.playing.time_changed.connect(self._show_time)
         self.frame_view.read_failed.connect(self.fault_raised)
-        self.frame_view.correction_requested.connect(self.correct_here)
+        self.frame_view.correct_button.clicked.connect(self.correct_here)
         self.frame_view.save_button.clicked.connect(self.open_hand_image_dialog)
         curves.cursor_moved.connect(self.playing.set_time)
         curves.edges_moved.connect(lambda *edges: self._apply_choices(lambda one: one.set_edges(*edges)))
         curves.menu.fault_raised.connect(self.fault_raised)
-        self.charts.finger_chosen.connect(self._refresh)
+        self.charts.finger.chosen.connect(lambda _: self._refresh())
         self.player.transport.stepped.connect(self.step)
-        self.player.repetition_requested.connect(self.toggle_excluded)
+        self.player.repetition_button.clicked.connect(self.toggle_excluded)
         self.exclusion_dialog.reason_chosen.connect(self._exclude_repetition)
         self.hand_image_dialog.accepted.connect(self._request_hand_image)
-        card.report_button.clicked.connect(lambda: self.report_requested.emit(self._session_id))
-        card.export_button.clicked.connect(lambda: self.export_requested.emit(self._session_id))
-        card.repeat_button.clicked.connect(self.repeat_requested)
-        card.include_button.clicked.connect(self.toggle_included)
-        card.comparison_requested.connect(lambda other: self.comparison_requested.emit(self._session_id, other))
-        card.tables.versions.chosen.connect(self.version_chosen)
-        card.tables.versions.restore_requested.connect(self.restore_requested)
+        self.card.include_button.clicked.connect(self.toggle_included)
 
     def _bind(self) -> None:
         curves, card = self.charts.curves, self.card
@@ -140,7 +130,7 @@ class ReviewScreen(FittedWidget):
         self, patient_id: str, session_id: str, *, may_repeat: bool = False, whole_hand: bool | None = None
     ) -> None:
         """Read a session in the background, then show it; ``whole_hand``, if known, fixes the layout at once."""
-        self._session_id, self.reviewed = session_id, None
+        self.session_id, self.reviewed = session_id, None
         self._earlier_choices.clear()
         for sheet in (self.exclusion_dialog, self.hand_image_dialog):
             sheet.close_dialog()  # what they ask about was of the session before
@@ -159,7 +149,7 @@ class ReviewScreen(FittedWidget):
         store = self._store
 
         def report_failure(fault: Exception) -> None:
-            if session_id == self._session_id:
+            if session_id == self.session_id:
                 self.frame_view.set_session(
                     None, self.tr("This session cannot be read. Go back, or choose another one.")
                 )
@@ -179,14 +169,14 @@ class ReviewScreen(FittedWidget):
         return None if self.reviewed is None else self.reviewed.results
 
     def _show(self, reviewed: ReviewedSession) -> None:
-        if reviewed.id != self._session_id:
+        if reviewed.id != self.session_id:
             return  # another one was asked for meanwhile
         self.reviewed, self._whole_hand = reviewed, reviewed.is_hand
         self.playing.open(float(reviewed.curves.time_s[-1]) if len(reviewed.curves.time_s) else -1.0)
         self.charts.finger.setVisible(reviewed.is_hand)
         self.card.tables.show_layout(whole_hand=reviewed.is_hand)
         self.frame_view.show_session(reviewed.session)
-        self.card.tables.versions.show_versions(reviewed.versions, self._session_id)
+        self.card.tables.versions.show_versions(reviewed.versions, self.session_id)
         all_of_them = reviewed.results.repetitions
         count = (n for n, repetition in enumerate(all_of_them) if repetition.is_counted)
         self.current = next(count, 0 if all_of_them else -1)  # also where all are passive
@@ -231,7 +221,7 @@ class ReviewScreen(FittedWidget):
     def correct_here(self) -> None:
         if self.reviewed is not None and self.frame_view.row >= 0:
             self.playing.stop()
-            self.correction_requested.emit(self._session_id, self.reviewed.session, self.frame_view.row)
+            self.correction_requested.emit(self.session_id, self.reviewed.session, self.frame_view.row)
 
     # --- picture of the hand ------------------------------------------------------------------------------
     def open_hand_image_dialog(self) -> None:
@@ -290,10 +280,90 @@ class ReviewScreen(FittedWidget):
             return
         self.reviewed = self.reviewed.apply_choices(choices)
         self._refresh()
-        store, session_id = self._store, self._session_id
+        store, session_id = self._store, self.session_id
         self._background.run(
             lambda: store.save_choices(session_id, choices), lambda _: None, self.fault_raised.emit, self
         )
+
+
+class ReviewCharts(QWidget):
+    """Curves of the wrist, or of one or all fingers."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        fingers: list[tuple[object, str]] = [(0, self.tr("All fingers"))]
+        fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
+        self.finger = ChoiceRow(theme, [*fingers, (WRIST, self.tr("Wrist"))])
+        self.finger.hide()  # until a session of the whole hand is shown
+        for button in self.finger.buttons():
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click must leave Space and the arrows to the player
+        self.curves = SessionChart(theme)
+        self._column = column_layout(self.finger, gap=8, margins=(0, 0, 0, 0), parent=self)
+        fill(self._column, (self.curves, 1))
+
+    @property
+    def finger_number(self) -> int:
+        """Chosen finger, 0 for all, :data:`WRIST` for the wrist."""
+        value = self.finger.value()
+        return value if isinstance(value, int) else 0
+
+    def fit(self, reviewed: ReviewedSession | None, *, above: QBoxLayout | None) -> bool:
+        """Show fewer panels for large text; return True if another finger had to be chosen."""
+        tight, place = above is not None, above or self._column
+        self.curves.show_single(tight)
+        if place.indexOf(self.finger) < 0:
+            place.insertWidget(0, self.finger)
+        self.finger.buttons()[0].setVisible(not tight)
+        if tight and reviewed is not None and reviewed.is_hand and self.finger_number == 0:
+            self.finger.choose(find_finger_angle(reviewed.results.exercise.joint).finger)  # five panels have no room
+            return True
+        return False
+
+    def show_plot(self, reviewed: ReviewedSession, current: int) -> SessionPlot:
+        """Show the angles of the wrist or of the chosen finger."""
+        shown = (reviewed.curves, reviewed.results.exercise, reviewed.results.repetitions, current)
+        plot: SessionPlot
+        if reviewed.joints is not None and self.finger_number != WRIST:
+            plot = HandPlot(*shown, joints=reviewed.joints, finger=self.finger_number)
+        else:
+            plot = SessionPlot(*shown, *reviewed.results.targets_deg)
+        self.curves.show_plot(plot)
+        return plot
+
+
+class Player(Card):
+    """Buttons and time slider below frame and curves."""
+
+    def __init__(self, theme: Theme, playing: PlaybackClock) -> None:
+        super().__init__(theme, 0)
+        self._end_s = 1.0
+        self.transport = PlaybackControls(theme, playing)
+        self.repetition_button = Button(theme, self.tr("Repetition…"), "quiet", hint="X", height_px=40)
+        self.repetition_button.setToolTip(
+            self.tr("Mark as passive or excluded (X). [ and ] select another repetition.")
+        )
+        self.repetition_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.time = Text(theme, "", 14, MEDIUM)
+        self.scrubber = TimeSlider(theme)
+        row = row_layout(self.transport, 8, KeyCaps(theme, [(self.tr("Space"), self.tr("play"))]), gap=4)
+        fill(row, self.repetition_button, STRETCH, self.time, 8, (self.scrubber, 6), 8)
+        row.addWidget(KeyCaps(theme, [("← →", self.tr("frame"))]))
+        row.setContentsMargins(12, 7, 16, 7)
+        self.body.addLayout(row)
+        self.scrubber.time_chosen.connect(playing.set_time)
+        playing.time_changed.connect(self._show_time)
+
+    def show_session(self, end_s: float, repetitions: Sequence[RepetitionResult], current: int) -> None:
+        self._end_s = end_s
+        self.scrubber.show_session(end_s, repetitions, current)
+
+    def show_nothing(self) -> None:
+        self.show_session(0.0, (), -1)
+        self._show_time(0.0)
+
+    def _show_time(self, time_s: float) -> None:
+        self.time.setText(clock_words(time_s, self._end_s))
+        self.scrubber.show_time(time_s)
 
 
 class ExclusionDialog(Dialog):

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFileDialog, QProgressBar, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus.core.records.session_setup import SessionSetup
 from carpus.ui.kit.button import ENTER_KEY, Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, row_layout
+from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.kit.translate import translate_phrase
@@ -37,7 +38,7 @@ class CameraScreen(QWidget):
         self._patient_id = ""
         self.start_folder = ""
         """Folder in which the dialogs for recordings open."""
-        self._is_opening = False
+        self.is_opening = False
         self.sources = Options(
             theme,
             [
@@ -57,9 +58,7 @@ class CameraScreen(QWidget):
         self.choose_folder_button = Button(theme, self.tr("Choose a fol&der…"), icon="folder-open", height_px=40)
         self.position_label = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.progress_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.progress = QProgressBar()
-        self.progress.setTextVisible(False)
-        self.progress.setAccessibleName(self.tr("Progress"))
+        self.progress = ThinProgressBar(theme, self.tr("Progress"))
         self.bubble = BubbleView(theme)
         self.primary_button = Button(theme, "", "primary", hint=ENTER_KEY)
         self._build_layout()
@@ -98,11 +97,6 @@ class CameraScreen(QWidget):
 
     def _fit(self) -> None:
         self._card.setFixedWidth(self._theme.px(376))
-        bar = "QProgressBar {{ background: {0}; border: 0; border-radius: 4px; height: 8px; }}"
-        chunk = " QProgressBar::chunk {{ background: {1}; border-radius: 4px; }}"
-        tokens = self._theme.tokens
-        self.progress.setStyleSheet((bar + chunk).format(tokens.sunken, tokens.accent))
-        self.progress.setFixedHeight(8)
 
     def show_set_up(self, set_up: SessionSetup, kind: SourceKind) -> None:
         """Ask for the source; a recording chosen for another patient is dropped."""
@@ -115,10 +109,6 @@ class CameraScreen(QWidget):
 
     def initial_focus(self) -> QWidget:
         return self.sources.current()
-
-    @property
-    def is_opening(self) -> bool:
-        return self._is_opening
 
     def set_camera_ready(self, there: bool, name: str = "") -> None:
         """Show whether a camera is connected, and its name."""
@@ -135,17 +125,13 @@ class CameraScreen(QWidget):
         """Disable the choice while a source is opened, and keep the keyboard focus here."""
         if opening and self.isVisible():
             self.setFocus(Qt.FocusReason.OtherFocusReason)
-        self._is_opening = opening
+        self.is_opening = opening
         self.progress.setVisible(opening)
-        self.progress.setRange(0, 0)
+        self.progress.show_busy()
         self.progress_words.show_text(words)
         for widget in (self.sources, self._files):
             widget.setEnabled(not opening)
         self._refresh()
-
-    def show_progress(self, done: int, total: int) -> None:
-        self.progress.setRange(0, total)
-        self.progress.setValue(done)
 
     def _refresh(self, *_: object) -> None:
         there = self._is_camera_ready
@@ -169,9 +155,9 @@ class CameraScreen(QWidget):
         missing = {"camera": not there, "file": not self._path}.get(str(kind), False)
         if missing:
             words = self.tr("No camera yet") if kind == "camera" else self.tr("Choose a recording first")
-        if self._is_opening:
+        if self.is_opening:
             words = self.tr("Opening…")
-        self.primary_button.setEnabled(not missing and not self._is_opening)
+        self.primary_button.setEnabled(not missing and not self.is_opening)
         self.primary_button.set_label(words, hint=ENTER_KEY if self.primary_button.isEnabled() else "")
 
     def _open(self) -> None:

@@ -34,7 +34,7 @@ from carpus.ui.kit.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.screens.setup.option import Options
-from carpus.ui.screens.setup.set_words import set_words
+from carpus.ui.screens.setup.set_dialog import part_words
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle
 
@@ -230,10 +230,8 @@ class ExerciseScreen(QWidget):
         exercise = chosen.parts[0].exercise if chosen is not None else get_exercise(str(exercise_id))
         if not exercise.is_allowed_by(self._find_protocol()):
             return  # the list that is not shown
-        single, parts = (
-            chosen is None,
-            self.form.labelled_widgets,
-        )  # a set brings its own counts; targets come from the goals
+        # A set brings its own counts; targets come from the goals.
+        single, parts = chosen is None, self.form.labelled_widgets
         parts["repetitions"].setVisible(single and exercise.has_repetitions)
         names = [terms.movement_name(one) for one in DIRECTIONS[exercise.angle]] if exercise.angle is not None else []
         names = names or ([find_finger_angle(exercise.joint).long_name] if exercise.joint else [])
@@ -316,7 +314,11 @@ def _list_options(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list
         for item in exercises_for_protocol(protocol)
     ]
     several = [
-        (_set_option_id(one.set_id), tr("Exercise set: {name}").format(name=translate_phrase(one.name)), set_words(one))
+        (
+            _set_option_id(one.set_id),
+            tr("Exercise set: {name}").format(name=translate_phrase(one.name)),
+            " → ".join(map(part_words, one.parts)),
+        )
         for one in sets
         if one.protocol_name == protocol.name
     ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from PySide6.QtCore import Qt
 
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
 from carpus.core.model.types import Side
+from carpus.core.pipeline.recording import read_free_bytes
 from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets
 from carpus.core.records.patients import read_goals
 from carpus.core.records.session_setup import (
@@ -54,7 +54,7 @@ class ExerciseFlow(Flow):
         row = self.open_patient(patient_id)
         last = context.current.set_up or read_or_default(lambda: read_last_setup(library.store, patient_id), None)
         affected: Side | None = None if row.side == "both" else row.side
-        free = free_bytes(library.folder)
+        free = read_free_bytes(library.folder) or 0
         usual = context.keep_pictures and free >= MIN_FREE_FOR_VIDEO_BYTES
         self.screen.show_patient(
             row, last, last.side if last is not None else affected,
@@ -121,7 +121,7 @@ class CameraFlow(Flow):
         opener.opening.connect(self._on_opening)
         opener.opened.connect(self._on_opened)
         opener.failed.connect(self._on_failed)
-        opener.progress_changed.connect(screen.show_progress)
+        opener.progress_changed.connect(screen.progress.show_progress)
 
     def open(self, patient_id: str = "", goes_on: bool = False) -> None:
         """Open for the chosen set-up; ``goes_on`` opens a camera that is ready without asking.
@@ -157,12 +157,10 @@ class CameraFlow(Flow):
         self.context.opener.close_source()
         self.screen.start_folder = self.context.recent_locations.folder("recordings")
         practises = now.set_up.patient_id == PRACTICE_PATIENT
-        if not practises and now.source_kind == "practice" and not self.context.is_demo:
-            now.source_choice = SourceChoice(
-                "camera"
-            )  # nobody else is measured on the practice patient's without being asked
         if practises:
             now.source_choice = SourceChoice("practice")
+        elif now.source_kind == "practice" and not self.context.is_demo:
+            now.source_choice = SourceChoice("camera")  # only the practice patient is simulated without being asked
         self.screen.show_set_up(now.set_up, now.source_kind)
         self.context.navigator.switch_screen("camera")
 
@@ -187,11 +185,3 @@ class CameraFlow(Flow):
         self.screen.show_opening(False)
         self.screen.initial_focus().setFocus(Qt.FocusReason.OtherFocusReason)
         self.context.messages.show_fault(fault, (Answer(self.tr("Choose the source again"), lambda: None),))
-
-
-def free_bytes(folder: Path) -> float:
-    """Return the free space on the disk of a folder; 0 if unknown."""
-    try:
-        return float(shutil.disk_usage(folder).free)
-    except OSError:
-        return 0.0

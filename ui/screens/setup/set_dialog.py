@@ -1,4 +1,4 @@
-"""Dialog for sets of exercises: name, exercises, repetitions or time, rest."""
+"""Sets of exercises: their words, and the dialog for name, exercises, repetitions or time, rest."""
 
 from __future__ import annotations
 
@@ -28,10 +28,18 @@ from carpus.ui.kit.field import Combo, LabelledField, number_field
 from carpus.ui.kit.layouts import STRETCH, column_layout, grid_layout, row_layout, scroll_column
 from carpus.ui.kit.text import Text, caption
 from carpus.ui.kit.theme import Theme
-from carpus.ui.kit.translate import translate_phrase
+from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.words import terms
 
 DEFAULT_SECONDS = 60
+
+
+def part_words(part: SetPart) -> str:
+    """Format a part: ``Full fist, 10 times``; ``Free movement, 60 s``."""
+    if part.repetitions:
+        pattern = tr("{exercise}, {count} times")
+        return pattern.format(exercise=terms.exercise_name(part.exercise.id), count=part.repetitions)
+    return tr("{exercise}, {count} s").format(exercise=terms.exercise_name(part.exercise.id), count=part.seconds)
 
 
 class PartRow(QObject):
