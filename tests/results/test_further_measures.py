@@ -31,10 +31,10 @@ from carpus.core.results.task_measures import (
     find_session_reaches,
 )
 from carpus.ui.kit.cells import cell_text
-from carpus.ui.words.identity import to_person
 from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import method_words
 from carpus.ui.words.task_measures import measure_name, short_task_summary, task_summary, task_table
+from carpus.ui.words.terms import to_person
 from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 

@@ -11,7 +11,7 @@ from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.kit.language import current_language
 from carpus.ui.kit.theme import LIGHT
 from carpus.ui.picture.hand_drawing import MARKER_POSITIONS, SIZE, hand_outline, placement
-from carpus.ui.words.marker_words import marker_title
+from carpus.ui.words.terms import marker_title
 
 MARKER_COLOR = "#2B4FB0"
 MARKER_MM, HAND_MM = 12.0, 190.0

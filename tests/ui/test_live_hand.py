@@ -21,8 +21,7 @@ from carpus.ui.charts.history import History
 from carpus.ui.screens.live.number_card import Reading
 from carpus.ui.screens.live.recording import RepetitionCounter
 from carpus.ui.screens.live.status_light import hand_light
-from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
-from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle, find_finger_angle
+from carpus.ui.words.finger_angles import FINGER_ANGLES, FingerAngle, estimate_finger_angles, find_finger_angle
 from tests.moments import with_moment
 from tests.ui.conftest import Live
 from tests.ui.fakes import FakeFeed

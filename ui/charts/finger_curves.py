@@ -29,7 +29,7 @@ from carpus.ui.words.finger_angles import (
     spread_labels,
     spread_side,
 )
-from carpus.ui.words.marker_words import finger_name
+from carpus.ui.words.terms import finger_name
 
 LEFT_PX, RIGHT_PX, TOP_PX, BETWEEN_PX, ROW_PX = 112, 14, 44, 13, 31
 BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°"), (0.0, "0°")))

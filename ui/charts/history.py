@@ -9,20 +9,20 @@ from typing import Literal
 
 import numpy as np
 
+from carpus.core.measures.signals import BoolArray
 from carpus.core.measures.wrist_centre import DEFAULT_CENTRE_M, estimate_wrist_centre, rotation_in_w0
 from carpus.core.model.hand.exercises import STILL_RADIUS_MM, Exercise, get_exercise
 from carpus.core.model.hand.forearm_rotation import to_clinical_wrist_angles
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.charts.series import MAX_STEP_S, Series
-from carpus.ui.words.finger_angle_estimates import (
-    BoolArray,
+from carpus.ui.words.finger_angles import (
+    FINGER_ANGLES,
     angle_weights,
     estimate_finger_angles,
     find_measured_angles,
     joint_names,
 )
-from carpus.ui.words.finger_angles import FINGER_ANGLES
 
 VISIBLE_S = 10.0
 # A little more than is shown, so that lines leave the chart at its edge.

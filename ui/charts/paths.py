@@ -23,7 +23,7 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.words.finger_angles import FINGERS
-from carpus.ui.words.marker_words import finger_name
+from carpus.ui.words.terms import finger_name
 
 BAR_LENGTHS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
 # The view is never narrower, also of a still hand.

@@ -42,7 +42,7 @@ from carpus.ui.kit.theme import CURVE_TOKENS, Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, AngleKind, FingerAngle, format_spread, spread_labels
-from carpus.ui.words.marker_words import finger_name
+from carpus.ui.words.terms import finger_name
 
 # Shown before the first and after the last repetition when zoomed to them.
 MARGIN_S = 1.0

@@ -35,11 +35,10 @@ from carpus.ui.report.page import (
 from carpus.ui.report.session_page import DerivedReport, SessionReport, comment_lines, comment_text
 from carpus.ui.words import terms
 from carpus.ui.words.fingers import is_thumb_exercise, main_angles, range_words
-from carpus.ui.words.identity import printed_name
-from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import LOWER_BOUND, mean_head, range_table
 from carpus.ui.words.session import change_sentences, method_words, warning_lines
+from carpus.ui.words.terms import finger_name, printed_name
 
 MIN_SCALE = 0.8
 MAX_OMISSIONS = 3

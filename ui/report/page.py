@@ -27,7 +27,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.words import terms
-from carpus.ui.words.identity import printed_name
+from carpus.ui.words.terms import printed_name
 
 # Layout pixels per point: Qt places in whole pixels, and a quarter of a point is finer than print.
 UNIT = 4

@@ -62,7 +62,6 @@ from carpus.ui.words import terms
 from carpus.ui.words.active_passive import build_active_passive
 from carpus.ui.words.finger_angles import KIND_TOKENS, kind_name
 from carpus.ui.words.fingers import find_main_ranges, finger_table, limitation_words
-from carpus.ui.words.identity import to_person
 from carpus.ui.words.manual_values import day_words
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import mean_words, range_table, reference_words, repetition_words
@@ -74,6 +73,7 @@ from carpus.ui.words.session import (
     warning_lines,
     wrist_summary,
 )
+from carpus.ui.words.terms import to_person
 
 COMMENT_PT = 9.0
 # A longer comment gets pages of its own.

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, Signal
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
 from carpus.ui.shell.current_selection import practice_patient_name
-from carpus.ui.words.identity import identity_words
+from carpus.ui.words.terms import identity_words
 
 
 class NameDisplay(QObject):

@@ -17,9 +17,9 @@ from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, AngleKind, FingerAngle
 from carpus.ui.words.fingers import has_totals, range_words
 from carpus.ui.words.manual_values import value_words
-from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import range_name, reason_words
 from carpus.ui.words.ranges import LOWER_BOUND, is_deficit, mean_words
+from carpus.ui.words.terms import finger_name
 
 # Before a manual value, here as in every chart.
 MANUAL_SIGN = "\N{WHITE SQUARE}"

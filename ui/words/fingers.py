@@ -24,10 +24,10 @@ from carpus.ui.words.finger_angles import (
     find_finger_angle,
     format_spread,
 )
-from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import reason_words, short_change_words
 from carpus.ui.words.ranges import LOWER_BOUND, is_deficit, mean_words
 from carpus.ui.words.task_measures import short_task_summary
+from carpus.ui.words.terms import finger_name
 
 COLUMNS: tuple[AngleKind, ...] = ("knuckle", "middle", "end", "spread", "tam")
 

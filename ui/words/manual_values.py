@@ -24,8 +24,8 @@ from carpus.core.measures.manual_measurements import (
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.words import terms
-from carpus.ui.words.marker_words import long_finger_name
 from carpus.ui.words.progress import verdict_word
+from carpus.ui.words.terms import long_finger_name
 
 
 def measure_name(measure: ManualMeasure) -> str:

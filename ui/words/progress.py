@@ -18,7 +18,7 @@ from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
 from carpus.ui.words.finger_angles import find_finger_angle
-from carpus.ui.words.marker_words import long_finger_name
+from carpus.ui.words.terms import long_finger_name
 
 _VERDICTS: Mapping[str, Phrase] = {
     "improved": phrase("improved"), "worse": phrase("worse"), "no_change": phrase("no change beyond MDC"),

@@ -25,10 +25,10 @@ from carpus.ui.words.fingers import (
     main_kind_name,
     range_words,
 )
-from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.progress import duplicate_result_words, error_limit_words, reason_words
 from carpus.ui.words.ranges import LOWER_BOUND, has_sd, is_deficit
 from carpus.ui.words.task_measures import task_summary
+from carpus.ui.words.terms import finger_name
 
 
 def wrist_summary(results: SessionResults, previous: SessionResults | None, first: SessionResults | None) -> str:

@@ -1,4 +1,4 @@
-"""Clinical terms for exercises, movements and hands."""
+"""Clinical terms for exercises, movements, hands, fingers, markers and people."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from datetime import date
 
 import numpy as np
 
+from carpus.core.model import fault_text
 from carpus.core.model.hand.exercises import (
     ARC_NAMES,
     DIRECTIONS,
@@ -20,6 +21,8 @@ from carpus.core.model.hand.forearm_rotation import is_counted_from_thumb_up, to
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import FloatArray
+from carpus.core.records.values import Patient
+from carpus.core.results.norms import Person
 from carpus.ui.kit import language, numbers
 from carpus.ui.kit.translate import tr, translate_phrase
 
@@ -179,3 +182,87 @@ def start_angle_words(angles_rad: FloatArray) -> str:
             name = movement_name(DIRECTIONS[column][0 if read[column] > 0 else 1])
             parts.append(f"{name} {numbers.format_degrees(math.degrees(read[column]))}")
     return ", ".join(parts)
+
+
+def marker_title(marker: str) -> str:
+    """Return the name of a marker as a title, such as ``Thumb CMC`` for CMC1."""
+    name = fault_text.marker_name(marker, translate_phrase)
+    return name[:1].upper() + name[1:]
+
+
+_FINGER_NAMES = {
+    "1": (phrase("Thumb"), phrase("Thumb")), "2": (phrase("Index"), phrase("Index finger")),
+    "3": (phrase("Middle"), phrase("Middle finger")), "4": (phrase("Ring"), phrase("Ring finger")),
+    "5": (phrase("Little"), phrase("Little finger")),
+}  # fmt: skip
+
+
+def finger_name(finger: str) -> str:
+    """Return the short name of a finger, such as ``Ring`` for 4."""
+    return translate_phrase(_FINGER_NAMES[finger][0])
+
+
+def long_finger_name(finger: str) -> str:
+    """Return the name of a finger, such as ``Ring finger`` for 4."""
+    return translate_phrase(_FINGER_NAMES[finger][1])
+
+
+def click_instruction(marker: str) -> str:
+    """Return the instruction to click a marker."""
+    return tr("Click the {marker}").format(marker=fault_text.marker_name(marker, translate_phrase))
+
+
+def marker_placement(marker: str) -> str:
+    """Say where exactly a marker is placed on the hand."""
+    joint = marker.rstrip("12345")
+    if marker == "WRIST":
+        return tr("In the middle of the back of the wrist, in the small hollow.")
+    if marker == "CMC1":
+        return tr("At the base of the thumb, just distal to the anatomical snuffbox.")
+    return {
+        "MCP": tr("On the back of the hand, 3–5 mm proximal to the MCP joint."),
+        "PIP": tr("Centred on the creases over the PIP joint."),
+        "DIP": tr("Centred on the creases over the DIP joint."),
+        "IP": tr("Centred on the creases over the IP joint."),
+        "TIP": tr("In the middle of the nail."),
+    }.get(joint, "")
+
+
+def occlusion_remedy(marker: str) -> str:
+    """Say how to make an occluded marker visible."""
+    if marker == "WRIST":
+        return tr("Clear the view of the wrist")
+    if marker == "CMC1":
+        return tr("Turn the thumb side up")
+    if marker == "MCP5":
+        return tr("Turn the little-finger side up")
+    return tr("Turn the back of the hand to the camera")
+
+
+def birth_words(patient: Patient) -> str:
+    """Return ``born 12 Mar 1981``; empty if unknown."""
+    return tr("born {day}").format(day=numbers.format_date(patient.birth_day)) if patient.birth_day else ""
+
+
+def to_person(patient: Patient | None, day: date) -> Person | None:
+    """Return sex and age on a day, None if the age is not known."""
+    if patient is None or patient.birth_day is None:
+        return None
+    born = patient.birth_day
+    return Person(patient.sex, day.year - born.year - ((day.month, day.day) < (born.month, born.day)))
+
+
+def record_number_words(patient: Patient) -> str:
+    """Return ``No. 4711``; empty if there is none."""
+    return tr("No. {number}").format(number=patient.record_number) if patient.record_number else ""
+
+
+def identity_words(patient: Patient) -> str:
+    """Return ``born 12 Mar 1981, female, No. 4711``."""
+    sex = {"female": tr("female"), "male": tr("male"), "diverse": tr("other")}.get(patient.sex, "")
+    return ", ".join(part for part in (birth_words(patient), sex, record_number_words(patient)) if part)
+
+
+def printed_name(patient: Patient) -> str:
+    """Return ``Erika Mustermann, born 12 Mar 1981, female, No. 4711``."""
+    return ", ".join(part for part in (patient.name, identity_words(patient)) if part)

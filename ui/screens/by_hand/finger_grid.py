@@ -41,8 +41,8 @@ from carpus.ui.kit.text import REGULAR, SEMIBOLD
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.words.manual_values import entry_error, entry_warning, full_name, history_words, mode_name, value_words
-from carpus.ui.words.marker_words import finger_name
 from carpus.ui.words.ranges import LOWER_BOUND
+from carpus.ui.words.terms import finger_name
 
 ROW_PX, HEAD_PX = 30, 46
 JOINT_COLUMNS = ("MCP", "PIP", "DIP")

@@ -31,7 +31,7 @@ from carpus.ui.shell.current_selection import practice_patient_name
 from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.words import terms
 from carpus.ui.words.agreement import angle_name
-from carpus.ui.words.marker_words import marker_title
+from carpus.ui.words.terms import marker_title
 
 
 class CorrectionFlow(Flow):

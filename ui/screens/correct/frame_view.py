@@ -19,7 +19,7 @@ from carpus.ui.picture.overlay import draw_with_halo
 from carpus.ui.picture.photo import paint_label, paint_wrong_label
 from carpus.ui.picture.session_frames import project_markers
 from carpus.ui.picture.view import FrameView
-from carpus.ui.words.marker_words import marker_title
+from carpus.ui.words.terms import marker_title
 
 SNAP_RADIUS_PX = 8.0
 """A position this near to a blob becomes its centre."""

@@ -25,7 +25,7 @@ from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.picture.playback_controls import PlaybackControls, TimeSlider, clock_words
 from carpus.ui.picture.session_frames import RowReader, blank_frame
 from carpus.ui.screens.correct.frame_view import CorrectionFrameView, MarkerEdits
-from carpus.ui.words.marker_words import marker_title
+from carpus.ui.words.terms import marker_title
 
 if TYPE_CHECKING:
     from carpus.core.records.corrections import Corrections

@@ -25,8 +25,7 @@ from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
 from carpus.ui.charts.history import History
 from carpus.ui.kit.background import Background
 from carpus.ui.picture.movement_guide import ExerciseSnapshot, RecordingState
-from carpus.ui.words.finger_angle_estimates import estimate_finger_angles
-from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle, find_finger_angle
+from carpus.ui.words.finger_angles import FINGER_ANGLES, FINGERS, FingerAngle, estimate_finger_angles, find_finger_angle
 
 if TYPE_CHECKING:
     from carpus.core.pipeline.measurement import MeasurementController

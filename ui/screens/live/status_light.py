@@ -23,7 +23,7 @@ from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.kit.icons import paint_state
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr, translate_phrase
-from carpus.ui.words.marker_words import finger_name, marker_title, occlusion_remedy
+from carpus.ui.words.terms import finger_name, marker_title, occlusion_remedy
 
 Rank = Literal["good", "warn", "bad", "idle"]
 AMBER_AFTER_S = 0.3

@@ -32,7 +32,7 @@ from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
 from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator
 from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
-from carpus.ui.words.marker_words import click_instruction, finger_name, marker_placement, marker_title
+from carpus.ui.words.terms import click_instruction, finger_name, marker_placement, marker_title
 
 MARKER_FINDINGS = (
     "click_on_no_marker",

@@ -28,7 +28,7 @@ from carpus.ui.picture.photo import label_size, paint_label, paint_wrong_label
 from carpus.ui.picture.view import FrameView
 from carpus.ui.screens.markers.labelling import LabelState
 from carpus.ui.shell.view_models import FoundMarker
-from carpus.ui.words.marker_words import finger_name, marker_title
+from carpus.ui.words.terms import finger_name, marker_title
 
 LOUPE_PX, LOUPE_ZOOM = 204, 8.0
 GRAB_PX = 12.0

@@ -30,7 +30,7 @@ from carpus.ui.screens.welcome.panel import WelcomePanel
 from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
 from carpus.ui.words import terms
-from carpus.ui.words.identity import birth_words, record_number_words
+from carpus.ui.words.terms import birth_words, record_number_words
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.ui.screens.patients.patient_store import PatientStore

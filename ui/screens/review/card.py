@@ -32,10 +32,10 @@ from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.words import terms
 from carpus.ui.words.active_passive import build_active_passive
 from carpus.ui.words.fingers import finger_table, limitation_words, main_result_words
-from carpus.ui.words.identity import to_person
 from carpus.ui.words.progress import correction_words
 from carpus.ui.words.ranges import range_table, reference_words, repetition_words
 from carpus.ui.words.task_measures import task_table, task_title
+from carpus.ui.words.terms import to_person
 
 # The head of the table and two rows.
 MIN_TABLE_PX = 84

@@ -29,7 +29,7 @@ from carpus.ui.screens.review.frame_view import HandImage, HandImageDialog, Revi
 from carpus.ui.screens.review.reviewed_session import ReviewedSession
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
 from carpus.ui.words.finger_angles import FINGERS, find_finger_angle
-from carpus.ui.words.marker_words import finger_name
+from carpus.ui.words.terms import finger_name
 
 if TYPE_CHECKING:
     from carpus.core.records.data_folder import DataFolder
