@@ -4708,6 +4708,10 @@
         <translation>Programm</translation>
     </message>
     <message>
+        <source>Labels given while measuring ({count}) are not part of the new result. Check the markers.</source>
+        <translation>Beim Messen vergebene Bezeichnungen ({count}) gehören nicht zum neuen Ergebnis. Prüfen Sie die Marker.</translation>
+    </message>
+    <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
         <translation>Im neuen Ergebnis kaum sichtbar: {names}. Deren Winkel fehlen dort.</translation>
     </message>
@@ -10021,6 +10025,10 @@ von oben</translation>
     <message>
         <source>Not measured here</source>
         <translation>Hier nicht gemessen</translation>
+    </message>
+    <message>
+        <source>No video was saved: markers only</source>
+        <translation>Kein Video gespeichert: nur die Marker</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>

@@ -4712,6 +4712,10 @@
         <translation>Programma</translation>
     </message>
     <message>
+        <source>Labels given while measuring ({count}) are not part of the new result. Check the markers.</source>
+        <translation>Le etichette assegnate durante la misura ({count}) non fanno parte del nuovo risultato. Controllare i marcatori.</translation>
+    </message>
+    <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
         <translation>Quasi mai visibili nel nuovo risultato: {names}. Lì mancano i loro angoli.</translation>
     </message>
@@ -10021,6 +10025,10 @@ dall’alto</translation>
     <message>
         <source>Not measured here</source>
         <translation>Qui non misurato</translation>
+    </message>
+    <message>
+        <source>No video was saved: markers only</source>
+        <translation>Nessun video salvato: solo i marcatori</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>

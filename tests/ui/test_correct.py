@@ -9,9 +9,11 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.core.records.corrections import ResultDifference
 from carpus.core.session.label_checks import Correction
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.correct.flow import difference_words
 from carpus.ui.screens.correct.frame_view import MarkerEdits
 from carpus.ui.screens.correct.screen import CorrectionScreen
 from tests.ui.conftest import Show
@@ -123,3 +125,8 @@ def test_correction_frames_are_corrected_independently_in_a_shorter_session(
     assert screen.hint.text() == "", "its picture is being read"
     qtbot.waitUntil(lambda: not background.is_busy)
     assert screen.row == ROW // 4
+
+
+def test_new_result_names_live_labels_it_does_not_have() -> None:
+    words = difference_words(ResultDifference(620, 0, 0.0, 0.0, 0, "", (), is_live=False), (), live_labels=2)
+    assert words.startswith("Labels given while measuring (2) are not part of the new result.")

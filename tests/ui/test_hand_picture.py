@@ -29,6 +29,7 @@ from carpus.ui.screens.review.frame_view import HandImage, build_hand_image
 from tests.ui.conftest import Reviewing
 from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import FakeSessions, session
+from tests.ui.geometry import painted_texts
 
 ROWS = range(30, 90)
 FACE = (255, 0, 255)
@@ -76,6 +77,9 @@ def test_angle_on_frame_is_one_that_was_measured(side: Session) -> None:
 def test_hand_picture_without_consent_or_frames_is_not_saved(qtbot: QtBot, review: Reviewing) -> None:
     screen = review(FakeSessions(pictures=False), "session-7")
     assert screen.frame_view.save_button.isHidden()
+    with painted_texts(screen) as painted:
+        screen.frame_view.grab()
+    assert "No video was saved: markers only" in [one.text for one in painted]
     screen.open_hand_image_dialog()
     assert not screen.hand_image_dialog.isVisible()
     screen = review(FakeSessions(), "session-7")

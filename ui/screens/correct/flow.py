@@ -12,6 +12,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.pipeline.correction import correct_in_process, find_lost_corrections, load_task
+from carpus.core.pipeline.track import LIVE_LABEL
 from carpus.core.records.corrections import Corrections, PendingResult, ResultDifference, compare_results
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.session.label_checks import Correction, read_corrections
@@ -173,10 +174,9 @@ class CorrectionFlow(Flow):
         def read() -> tuple[str, str]:
             old, new = self._corrections.read_both(one.session_id, one.path)
             corrections = [correction for correction, _ in read_corrections(new)]
-            words = difference_words(
-                compare_results(old, new), find_lost_corrections(new, read_detections(one.path), corrections)
-            )
-            return describe_session(old.header), words
+            lost = find_lost_corrections(new, read_detections(one.path), corrections)
+            live_labels = sum(event.kind == LIVE_LABEL for event in old.events)
+            return describe_session(old.header), difference_words(compare_results(old, new), lost, live_labels)
 
         def show_results(found: tuple[str, str]) -> None:
             if self._shown_result == one and self.dialog.isVisible():
@@ -242,9 +242,15 @@ def describe_session(header: SessionHeader) -> str:
     return " · ".join((name, when, what))
 
 
-def difference_words(found: ResultDifference, lost_labels: Sequence[str]) -> str:
-    """Return how much two results differ, where most, and which labels were lost."""
+def difference_words(found: ResultDifference, lost_labels: Sequence[str], live_labels: int = 0) -> str:
+    """Return how much two results differ, where most, and which labels were lost.
+
+    ``live_labels`` were given while Carpus 0.2.0 measured; they are not applied again.
+    """
     sentences = []
+    if live_labels:
+        words = tr("Labels given while measuring ({count}) are not part of the new result. Check the markers.")
+        sentences.append(words.format(count=live_labels))
     if lost_labels:
         names = ", ".join(marker_title(name) for name in lost_labels)
         sentences.append(tr("Correction not kept for {names}. Correct a later frame too.").format(names=names))

@@ -40,6 +40,7 @@ class ReviewFrameView(SessionFrameView):
         super().__init__(theme, (480, 360), background, read)
         self._reviewed: ReviewedSession | None = None
         self._time_s, self._current, self._finger = 0.0, -1, 0
+        self._has_video = True
         self.overlay = self._paint_overlay
         self.correct_button = Button(theme, self.tr("Correct markers…"), "plain", height_px=36)
         self.correct_button.setToolTip(self.tr("A marker is wrong or missing here (Shift+F10)"))
@@ -58,6 +59,7 @@ class ReviewFrameView(SessionFrameView):
 
     def show_session(self, session: Session) -> None:
         """Show another session; its frames follow."""
+        self._has_video = True  # until its first frame is found missing
         self.set_session(session)
         self.set_hand_area(session.calibration.clicks.pixel)
         self.correct_button.show()
@@ -76,7 +78,8 @@ class ReviewFrameView(SessionFrameView):
         self.update()
 
     def show_stored_frame(self, picture: ByteImage | None) -> None:
-        if picture is not None:
+        self._has_video = picture is not None
+        if self._has_video:
             self.save_button.show()
         super().show_stored_frame(picture)
 
@@ -140,7 +143,7 @@ class ReviewFrameView(SessionFrameView):
         return self.tr("Moves towards the camera: not drawn")
 
     def _paint_labels(self, painter: QPainter, reviewed: ReviewedSession, angle_text: str) -> None:
-        """Paint repetition and time at the left, the status at the right or below, then ``angle_text``."""
+        """Paint repetition and time at the left, the status at the right or below, then the others."""
         plate = paint_label(painter, self._theme, self._clock_words(reviewed), 12, 12)
         words = reviewed.status_words(self.row, self._time_s)
         left, top = self.width() - label_size(self._theme, words).width() - 12, 12.0
@@ -148,8 +151,9 @@ class ReviewFrameView(SessionFrameView):
             left, top = 12.0, plate.bottom() + 4
         if words:
             plate = paint_label(painter, self._theme, words, left, top)
-        if angle_text:
-            paint_label(painter, self._theme, angle_text, 12, plate.bottom() + 4)
+        missing = "" if self._has_video else self.tr("No video was saved: markers only")
+        for text in filter(None, (angle_text, missing)):
+            plate = paint_label(painter, self._theme, text, 12, plate.bottom() + 4)
 
     def _clock_words(self, reviewed: ReviewedSession) -> str:
         """Return ``Repetition 3 of 8 · 00:12.0``, or the time alone between repetitions."""
