@@ -21,7 +21,7 @@ from carpus.app.batch.tracking_task import TrackingOutcome, TrackingTask, execut
 from carpus.app.command_line import print_message
 from carpus.core.model.errors import ExtraMissing, SchedulerUnreachable
 from carpus.core.platform.child_process import ChildProcess, end_with_owner
-from carpus.core.session.atomic_files import remove_leftovers
+from carpus.core.platform.durable import remove_leftovers
 
 Work = Callable[[TrackingTask], TrackingOutcome]
 MAX_TRIES = 3

@@ -16,8 +16,7 @@ from pathlib import Path
 from typing import IO, Any, Protocol
 
 from carpus.core.model.errors import OutputExists, OutputNotWritable
-from carpus.core.platform.durable import open_private, write_fault
-from carpus.core.session.atomic_files import publish
+from carpus.core.platform.durable import open_private, publish, write_fault
 
 PART_SUFFIX = ".half"
 _FORMULA_STARTS = tuple("=+-@\t\r\n")

@@ -1,21 +1,35 @@
-"""Durable, private writing of files: synchronised to the disk, readable by their owner only."""
+"""Durable writing of files: synchronised, for their owner only, and complete under their name or not at all."""
 
 from __future__ import annotations
 
 import contextlib
 import errno
+import glob
 import os
 import re
+import secrets
 import shutil
+import sys
 import tempfile
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Self
 
-from carpus.core.model.errors import CarpusFault, DiskFull, OutputNotWritable
+from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable
+from carpus.core.model.phrase import phrase
+from carpus.core.model.rounding import format_rounded
+
+if sys.platform == "win32":
+    import msvcrt
+else:
+    import fcntl
 
 DISK_FULL_ERRNOS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+TEMPORARY = ".tmp"
+STALE_AFTER_S = 60.0
+"""A file in progress is written every few seconds; without file locks an older one counts as left over."""
 
 
 class FileWriter:
@@ -143,18 +157,104 @@ def link_or_copy(path: Path, target: Path) -> None:
 
 def lock_file(file: IO[bytes]) -> None:
     """Lock a file until it is closed or the program ends; raises OSError if another program holds it."""
-    if os.name == "nt":
-        import msvcrt
-
+    if sys.platform == "win32":
         file.seek(1 << 40)  # beyond what anybody reads
-        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
         file.seek(0)
-    else:
-        import fcntl
+        return
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise
+    except OSError:
+        pass  # a disk without locks
 
+
+def is_being_written(path: Path) -> bool:
+    """Return whether any process has the HDF5 file open for writing."""
+    if sys.platform == "win32":
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            path.rename(path)  # an open file cannot be renamed there
+        except PermissionError:
+            return True
+        return False
+    with path.open("rb") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)  # HDF5 holds the exclusive lock while it writes
         except BlockingIOError:
-            raise
-        except OSError:
-            pass  # a disk without locks
+            return True
+        except OSError:  # a disk without locks
+            return False
+    return False
+
+
+def temporary_path(target: Path) -> Path:
+    """Return a hidden temporary name beside the target."""
+    return target.with_name(f".{target.name}.{secrets.token_hex(4)}{TEMPORARY}")
+
+
+def remove_leftovers(target: Path, min_age_s: float = STALE_AFTER_S) -> None:
+    """Remove what killed programs left of a file in progress."""
+    for left in target.parent.glob(f".{glob.escape(target.name)}.*{TEMPORARY}"):
+        with contextlib.suppress(OSError):  # another program removes it, or it may not be removed
+            if time.time() - left.stat().st_mtime >= min_age_s and not is_being_written(left):
+                left.unlink()
+
+
+def reserve_space(descriptor: int, path: Path, begin: int, length: int) -> None:
+    """Reserve ``length`` bytes after ``begin``, or raise :class:`DiskFull`.
+
+    HDF5 writes its index in many small steps; if the disk fills between two of them the file is lost.
+    """
+    try:
+        os.posix_fallocate(descriptor, begin, length)
+    except (AttributeError, OSError) as cause:  # Windows and some file systems cannot: ask how much is free
+        if getattr(cause, "errno", 0) in DISK_FULL_ERRNOS or shutil.disk_usage(path.parent).free < length:
+            text = phrase("no space for another {length} MB", length=format_rounded(length / 1e6, 1))
+            raise DiskFull(path, text) from cause
+
+
+def publish(whole: Path, target: Path) -> None:
+    """Give a complete file its final name; if that is taken, both files are kept."""
+    try:
+        if sys.platform == "win32":
+            whole.rename(target)  # refuses an existing target there
+        else:
+            try:
+                os.link(whole, target)
+            except FileExistsError:
+                raise
+            except OSError:  # no hard links (FAT, some network shares); a name taken first would stay after a kill
+                if os.path.lexists(target):
+                    raise FileExistsError(target) from None
+                whole.rename(target)
+            else:
+                whole.unlink()
+    except FileExistsError as cause:
+        raise OutputExists(target) from cause
+    except OSError as cause:
+        raise write_fault(target, cause) from cause
+    sync_folder(target.parent)
+
+
+def find_free_name(target: Path) -> Path:
+    """Return the name, with a number if it is taken."""
+    candidate, number = target, 1
+    while candidate.exists() or candidate.is_symlink():
+        number += 1
+        candidate = target.with_name(f"{target.stem}-{number}{target.suffix}")
+    return candidate
+
+
+def iter_paths(folder: Path, ending: str = "") -> Iterator[Path]:
+    """Yield all paths below a folder whose names have an ending; links are not followed.
+
+    Files that another program removes meanwhile are skipped, unlike in ``rglob``. Raises OSError for other failures.
+    """
+
+    def handle_error(fault: OSError) -> None:
+        if not isinstance(fault, FileNotFoundError | PermissionError):
+            raise fault
+
+    for here, folders, files in os.walk(folder, onerror=handle_error):
+        yield from (Path(here, name) for name in (*folders, *files) if name.endswith(ending))

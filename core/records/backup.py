@@ -25,6 +25,8 @@ from typing import Any
 from carpus.core.model import errors
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import (
+    TEMPORARY,
+    find_free_name,
     lock_file,
     make_private_folder,
     open_private,
@@ -36,7 +38,6 @@ from carpus.core.platform.version import __version__
 from carpus.core.records.database import STORE_FILE, copy_to_memory
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX
 from carpus.core.records.store import SESSIONS_FOLDER, require_store
-from carpus.core.session.atomic_files import TEMPORARY, find_free_name
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"

@@ -16,7 +16,14 @@ import numpy as np
 from carpus.core.model.errors import CarpusFault, ConcurrentChange, OutputExists, SessionUnreadable
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.types import ByteImage, FloatArray
-from carpus.core.platform.durable import link_or_copy, make_private_folder, replace_file, write_fault
+from carpus.core.platform.durable import (
+    find_free_name,
+    link_or_copy,
+    make_private_folder,
+    publish,
+    replace_file,
+    write_fault,
+)
 from carpus.core.records.changes import update_row
 from carpus.core.records.data_folder import DataFolder, with_listed_exercise
 from carpus.core.records.log import AuditAction
@@ -28,7 +35,6 @@ from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.repetition_rows import RepetitionChoices, compute_repetitions
 from carpus.core.results.valid_data import motion_estimate
-from carpus.core.session.atomic_files import find_free_name, publish
 from carpus.core.session.reader import read_detections, read_outline, read_session, rewrite_session
 from carpus.core.session.values import DetectionTable, RepetitionRow, Session, SessionHeader
 

@@ -16,9 +16,8 @@ from sqlalchemy.pool import StaticPool
 
 from carpus.core.model import errors
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import is_disk_full, make_private_file, write_fault
+from carpus.core.platform.durable import find_free_name, is_disk_full, make_private_file, write_fault
 from carpus.core.records.schema import METADATA, SESSION, SQLITE_LOG, TABLES, VERSION, rename_former_columns
-from carpus.core.session.atomic_files import find_free_name
 
 STORE_FILE = "records.sqlite3"
 MAX_CHECKED_BYTES = 64 << 20

@@ -20,6 +20,7 @@ from sqlalchemy import delete, select
 
 from carpus.core.model import errors
 from carpus.core.model.names import fold_name
+from carpus.core.platform.durable import iter_paths
 from carpus.core.records.changes import ERASED_SUBJECTS, RowChange, delete_row, fingerprint, is_patient_id, update_row
 from carpus.core.records.clinic_records import clear_places
 from carpus.core.records.database import STORE_FILE
@@ -39,7 +40,6 @@ from carpus.core.records.session_list import (
 from carpus.core.records.session_records import find_output_files
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
-from carpus.core.session.atomic_files import iter_paths
 
 
 @dataclass(frozen=True, slots=True)

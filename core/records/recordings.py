@@ -20,23 +20,27 @@ from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import lock_file, make_private_folder, open_private, sync_folder, write_fault
+from carpus.core.platform.durable import (
+    STALE_AFTER_S,
+    find_free_name,
+    is_being_written,
+    iter_paths,
+    lock_file,
+    make_private_folder,
+    open_private,
+    publish,
+    remove_leftovers,
+    sync_folder,
+    temporary_path,
+    write_fault,
+)
 from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session import reader
-from carpus.core.session.atomic_files import (
-    STALE_AFTER_S,
-    find_free_name,
-    find_part_target,
-    is_being_written,
-    iter_paths,
-    publish,
-    remove_leftovers,
-    temporary_path,
-)
 from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
 from carpus.core.session.journal import JournalReader, lock_journal, unpack_arrays
 from carpus.core.session.reader import read_outline
+from carpus.core.session.rewriting import find_part_target
 from carpus.core.session.writer import SessionWriter
 
 log = logging.getLogger(__name__)

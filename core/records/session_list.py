@@ -23,7 +23,7 @@ from carpus.core.model.errors import CarpusFault
 from carpus.core.model.names import fold_name
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Side
-from carpus.core.platform.durable import link_or_copy, make_private_folder, write_fault
+from carpus.core.platform.durable import find_free_name, iter_paths, link_or_copy, make_private_folder, write_fault
 from carpus.core.records import changes
 from carpus.core.records.changes import LOST_FOLDER, ChangeSet, insert_row, update_row, upsert_row
 from carpus.core.records.patients import Patients, patient_columns
@@ -31,7 +31,6 @@ from carpus.core.records.schema import FILE_STATE, PATIENT, SESSION
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, Patient, ScanResult, SessionEntry, parse_time
-from carpus.core.session.atomic_files import find_free_name, iter_paths
 from carpus.core.session.reader import read_outline, rewrite_session
 from carpus.core.session.values import SessionOutline
 

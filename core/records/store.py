@@ -16,12 +16,11 @@ from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, 
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import lock_file, make_private_file, make_private_folder
+from carpus.core.platform.durable import iter_paths, lock_file, make_private_file, make_private_folder
 from carpus.core.records.changes import ChangeSet, apply_changes, insert_row
 from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
 from carpus.core.records.schema import PATIENT, TABLES
 from carpus.core.records.session_setup import PRACTICE_PATIENT
-from carpus.core.session.atomic_files import iter_paths
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server

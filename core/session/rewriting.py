@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
+import struct
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import partial
@@ -13,15 +15,8 @@ import h5py
 
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import write_fault
+from carpus.core.platform.durable import find_free_name, publish, temporary_path, write_fault
 from carpus.core.session import schema
-from carpus.core.session.atomic_files import (
-    find_free_name,
-    find_part_target,
-    publish,
-    repair_file_end,
-    temporary_path,
-)
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
 from carpus.core.session.file_layout import create_dataset
 from carpus.core.session.session_file import layout_from_file, open_session, verify
@@ -32,6 +27,17 @@ from carpus.core.session.structure import (
     find_growing_fields,
     read_rows,
 )
+
+_SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
+"""Start of an HDF5 file: signature, version, size of addresses, base address, end-of-file address."""
+_END_OF_FILE_AT = _SUPERBLOCK.size - 8
+_PART = re.compile(r"(?P<target>.+)\.[0-9a-f]{8}\.part")
+
+
+def find_part_target(part: Path) -> Path | None:
+    """Return the final name of a part file of Carpus 0.2.0; None for any other file."""
+    match = _PART.fullmatch(part.name)
+    return part.with_name(match["target"]) if match else None
 
 
 def finish_part(part: Path, when: str) -> Path | None:
@@ -58,7 +64,7 @@ def finish_part(part: Path, when: str) -> Path | None:
         with copy.open("rb") as file:
             if not any(block.strip(b"\0") for block in iter(partial(file.read, 1 << 20), b"")):
                 return None  # space was reserved, and nothing written
-        repair_file_end(copy)
+        _repair_file_end(copy)
         with open_session(copy) as old:
             rows = count_whole_rows(old)
             if rows.frames == 0:
@@ -82,6 +88,26 @@ def finish_part(part: Path, when: str) -> Path | None:
         new.unlink(missing_ok=True)
     part.unlink()
     return target
+
+
+def _repair_file_end(part: Path) -> None:
+    """Set the end-of-file address to the file's true length.
+
+    HDF5 writes that address last. After a kill before it, HDF5 refuses to read good data behind an end that is too
+    early; space was reserved in advance, so the true length always covers them.
+    """
+    try:
+        with part.open("r+b") as file:
+            start = file.read(_SUPERBLOCK.size)
+            length = file.seek(0, 2)
+            if len(start) < _SUPERBLOCK.size:
+                return
+            *kind, end = _SUPERBLOCK.unpack(start)
+            if kind == [b"\x89HDF\r\n\x1a\n", 0, 8, 0] and end < length:
+                file.seek(_END_OF_FILE_AT)
+                file.write(struct.pack("<Q", length))
+    except OSError as cause:
+        raise write_fault(part, cause) from cause
 
 
 def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:

@@ -17,9 +17,16 @@ from carpus.core.model.camera import Camera
 from carpus.core.model.errors import CarpusFault, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import TrackedFrame
-from carpus.core.platform.durable import FileWriter, open_private, write_fault
+from carpus.core.platform.durable import (
+    FileWriter,
+    open_private,
+    publish,
+    remove_leftovers,
+    reserve_space,
+    temporary_path,
+    write_fault,
+)
 from carpus.core.session import schema
-from carpus.core.session.atomic_files import publish, remove_leftovers, reserve_space, temporary_path
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
 from carpus.core.session.columns import Blocks, build_event_blocks, build_frame_blocks, build_motion_blocks
 from carpus.core.session.file_layout import (

@@ -29,6 +29,7 @@ from carpus.core.model.errors import (
     SessionUnreadable,
 )
 from carpus.core.pipeline.correction import CorrectionTask, correct, load_task
+from carpus.core.platform.durable import publish
 from carpus.core.records.backup import collect_sources
 from carpus.core.records.corrections import Corrections, PendingResult, compare_results, match_exclusions
 from carpus.core.records.data_folder import DataFolder
@@ -39,7 +40,6 @@ from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.atomic_files import publish
 from carpus.core.session.reader import read_session
 from carpus.core.session.rewriting import rewrite_session
 from carpus.core.session.values import RepetitionRow
@@ -165,7 +165,7 @@ def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
             refused()
         return replace_real(path, target)
 
-    monkeypatch.setattr("carpus.core.session.atomic_files.os.link", refused)
+    monkeypatch.setattr("carpus.core.platform.durable.os.link", refused)
     monkeypatch.setattr(Path, "replace", replaced)
 
 

@@ -14,7 +14,8 @@ import pytest
 
 from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.model.hand.protocols import HAND21
-from carpus.core.session import atomic_files, writer
+from carpus.core.platform import durable
+from carpus.core.session import writer
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages, Motion, stack_states
 from tests.moments import with_moment
@@ -147,8 +148,8 @@ def test_session_writer_without_fallocate_checks_free_space(tmp_path: Path, monk
     monkeypatch.setattr(os, "posix_fallocate", unknown)
     session = begin_session(tmp_path / "s.h5", rows=1)
     session.flush()
-    usage = atomic_files.shutil.disk_usage(tmp_path)._replace(free=1000)
-    monkeypatch.setattr(atomic_files.shutil, "disk_usage", lambda _: usage)
+    usage = durable.shutil.disk_usage(tmp_path)._replace(free=1000)
+    monkeypatch.setattr(durable.shutil, "disk_usage", lambda _: usage)
     session.append(make_frame(1))
     with pytest.raises(DiskFull):
         session.close()
