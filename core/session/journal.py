@@ -35,8 +35,13 @@ from carpus.core.model.errors import CarpusFault, OutputExists, OutputNotWritabl
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import TrackedFrame
 from carpus.core.platform.durable import FileWriter, lock_file, open_private, sync_folder, write_fault
-from carpus.core.session.columns import Blocks, build_event_blocks, build_frame_blocks, build_motion_blocks
-from carpus.core.session.file_layout import build_empty_session
+from carpus.core.session.file_layout import (
+    Blocks,
+    build_empty_session,
+    build_event_blocks,
+    build_frame_blocks,
+    build_motion_blocks,
+)
 from carpus.core.session.schema import TableLayout
 from carpus.core.session.values import Event, Motion, SessionHeader
 

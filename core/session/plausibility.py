@@ -1,11 +1,17 @@
-"""Checks for values of a session that no hand and no clock can have, made when it is read."""
+"""Checks of a session file when it is read: of its structure, and for values that no hand and no clock can have.
+
+HDF5 follows links into other files, reads any file as external storage and allocates whatever a shape claims. All of
+that is rejected before a value is read (hard links, storage inside the file, declared types and sizes).
+"""
 
 from __future__ import annotations
 
+import itertools
 import math
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +19,8 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Detections
+from carpus.core.session import schema
+from carpus.core.session.schema import Field
 from carpus.core.session.values import Session, SessionHeader
 
 
@@ -23,6 +31,79 @@ class ContentError(Exception):
 def damage_error(place: str) -> ContentError:
     """Return the error for a part of a session file, by its path or name."""
     return ContentError(phrase("damaged: {value}", value=place))
+
+
+MAX_OBJECTS = 400
+"""Groups and datasets of one file; the schema has fewer than 100."""
+MAX_DEPTH = 6
+_PLAIN_LAYOUTS = (h5py.h5d.COMPACT, h5py.h5d.CONTIGUOUS, h5py.h5d.CHUNKED)
+_PLAIN_FILTERS = (h5py.h5z.FILTER_FLETCHER32, h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE)
+MAX_COMPRESSION_RATIO = 1032
+"""Largest ratio of the gzip format."""
+_KINDS = {"f": "f", "u": "iu", "i": "iu", "t": "SO", "r": "V"}
+_FIELDS = {field.path: field for field in schema.ALL_FIELDS}
+_ENDS_OF_RAW = {field.path for field in schema.RAW_STREAMS}
+
+
+def check_structure(file: h5py.File, size_bytes: int) -> None:
+    """Raise :class:`ContentError` unless the file contains only plain groups and datasets of the schema's size."""
+    whole = bool(file.attrs.get("complete", False))
+    seen: set[tuple[int, int]] = set()
+    waiting: list[tuple[str, h5py.h5g.GroupID, int]] = [("", h5py.h5g.open(file.id, b"/"), 0)]
+    declared = 0
+    while waiting:
+        place, group, depth = waiting.pop()
+        names = list(itertools.islice(group, MAX_OBJECTS + 1))
+        if depth > MAX_DEPTH or len(names) + len(seen) > MAX_OBJECTS:  # perhaps without an end
+            raise damage_error(place)
+        for name in names:
+            inside = f"{place}/{name.decode('utf-8', 'replace')}"
+            if group.links.get_info(name).type != h5py.h5l.TYPE_HARD:
+                raise damage_error(inside)
+            info = h5py.h5o.get_info(group, name)
+            key = (info.fileno, info.addr)
+            if key in seen or (inside in _FIELDS and info.type != h5py.h5o.TYPE_DATASET):
+                raise damage_error(inside)
+            seen.add(key)
+            if info.type == h5py.h5o.TYPE_GROUP:
+                waiting.append((inside, h5py.h5g.open(group, name), depth + 1))
+            elif info.type == h5py.h5o.TYPE_DATASET:
+                dataset = h5py.Dataset(h5py.h5d.open(group, name))
+                plan = dataset.id.get_create_plist()
+                filters = [plan.get_filter(number)[0] for number in range(plan.get_nfilters())]
+                is_inside = plan.get_layout() in _PLAIN_LAYOUTS and plan.get_external_count() == 0
+                if not is_inside or not set(filters) <= set(_PLAIN_FILTERS):
+                    raise damage_error(inside)
+                if inside in _FIELDS:
+                    declared += _check_size(_FIELDS[inside], dataset, size_bytes, whole=whole)
+    if declared > MAX_COMPRESSION_RATIO * size_bytes + 65536:
+        raise damage_error("/")
+
+
+def _check_size(field: Field, dataset: h5py.Dataset, file_bytes: int, *, whole: bool) -> int:
+    """Return the bytes that reading a dataset takes; raises if type, axes or size are not as declared."""
+    kind, shape = dataset.dtype.kind, dataset.shape
+    is_text = kind != "O" or h5py.check_string_dtype(dataset.dtype) is not None
+    if kind not in _KINDS[field.dtype[0]] or not is_text or shape is None or len(shape) != len(field.shape):
+        raise damage_error(field.path)
+    claimed = math.prod(int(length) for length in shape) * dataset.dtype.itemsize
+    stored = int(dataset.id.get_storage_size())
+    if dataset.chunks is not None and field.shape[0] in schema.GROWING_AXES and not whole:
+        # A flush that was cut short leaves rows announced whose chunk is not there; they are not read.
+        claimed = min(claimed, count_stored_rows(dataset) * math.prod(map(int, shape[1:])) * dataset.dtype.itemsize)
+        if math.prod(dataset.chunks) * dataset.dtype.itemsize > 1 << 27:
+            raise damage_error(field.path)
+    packed = MAX_COMPRESSION_RATIO if dataset.compression else 1
+    if stored > file_bytes or claimed > packed * max(stored, 0) + 4096:
+        raise damage_error(field.path)
+    return 0 if field.path in _ENDS_OF_RAW else claimed
+
+
+def count_stored_rows(dataset: h5py.Dataset) -> int:
+    """Return the rows for which a growing dataset has chunks; its shape may claim more."""
+    step, *row = dataset.chunks
+    chunk_bytes = step * math.prod(row) * dataset.dtype.itemsize + (4 if dataset.fletcher32 else 0)
+    return int(dataset.id.get_storage_size()) // chunk_bytes * int(step) if chunk_bytes else int(dataset.shape[0])
 
 
 MAX_DURATION_S = 86_400.0
@@ -47,21 +128,14 @@ def check_header(header: SessionHeader, parameters: object) -> None:
         is_missing = name == "session_id" and not text.strip()
         if is_missing or len(text) > MAX_TEXT_CHARACTERS or not (text.isprintable() or name == "origin"):
             raise damage_error(name)
-    # how deeply dicts and lists are nested; counted without recursion
-    deepest, level = 0, [parameters]
-    while level:
-        deepest += 1
-        inside: list[object] = []
-        for one in level:
-            if isinstance(one, dict):
-                inside += one.values()
-            elif isinstance(one, list):
-                inside += one
-        level = inside
-        if deepest > 2 * MAX_PARAMETERS_DEPTH:
-            break
-    if deepest > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
+    if _depth(parameters) > MAX_PARAMETERS_DEPTH or len(header.parameters) > MAX_PARAMETERS_CHARACTERS:
         raise damage_error("parameters")
+
+
+def _depth(value: object) -> int:
+    """Return how deeply dicts and lists are nested."""
+    inside = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return 1 + max(map(_depth, inside), default=0)
 
 
 def check_values(session: Session) -> None:

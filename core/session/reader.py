@@ -1,19 +1,22 @@
 """Reading of session files in another process.
 
-A damaged file may crash or hang the HDF5 library; it does so in the reading process
-(:mod:`core.session.reading_process`), which has limits of time and memory, serves many requests and is restarted when
-it has died. Results are values with read-only arrays.
+HDF5 trusts what it reads: a damaged file may crash it, or keep it for ever in one call, in which Python handles no
+signal. It does so in the reading process, which has limits of time and memory, answers one request after the other,
+opens only the file of the request, and is restarted when it has died. Results are values with read-only arrays.
 """
 
 from __future__ import annotations
 
 import contextlib
 import io
+import logging
 import os
 import pickle
+import signal
 import sys
 import threading
 from collections.abc import Iterator
+from importlib import import_module
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, cast
@@ -24,8 +27,18 @@ from carpus.core.model.phrase import phrase
 from carpus.core.platform.child_process import ChildProcess
 from carpus.core.session.values import DetectionTable, EncodedImages, Session, SessionOutline, VerificationResult
 
+if sys.platform != "win32":
+    import resource
+
+log = logging.getLogger(__name__)
+
 TIMEOUT_S, BYTES_PER_S = 20.0, 2e6
 """Time for an answer, and bytes of the file that allow another second: a slow share is no damaged file."""
+CPU_S, BYTES_PER_CPU_S = 1.2, 5e6
+"""Processor time for a request, and bytes of the file that allow another second."""
+BASE_MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 10
+"""Memory for an answer, and additional memory for each byte of the file, up to :data:`MAX_MEMORY_BYTES`."""
+MAX_MEMORY_BYTES = 6_000_000_000
 RAW_CHUNK_BYTES = 1 << 24
 _NUMPY_NAMES = ("ndarray", "dtype", "_reconstruct", "_frombuffer", "scalar")
 """Answers consist of these and of this program's classes; a process taken over by a file could send others."""
@@ -36,55 +49,55 @@ def read_session(path: Path) -> Session:
 
     Detections and images are read by :func:`read_detections` and :func:`read_raw`.
     """
-    return cast(Session, _request("session", path))
+    return cast(Session, _request("session_file:read_session", path))
 
 
 def read_outline(path: Path) -> SessionOutline:
     """Read header, length and state of a session, without its data."""
-    return cast(SessionOutline, _request("outline", path))
+    return cast(SessionOutline, _request("session_file:read_outline", path))
 
 
 def read_detections(path: Path) -> DetectionTable:
     """Read the detections of every frame of a session."""
-    return cast(DetectionTable, _request("detections", path))
+    return cast(DetectionTable, _request("session_file:read_detections", path))
 
 
 def has_raw(path: Path) -> bool:
     """Return whether the session has stored images."""
-    return bool(_request("has_raw", path))
+    return bool(_request("session_file:has_raw", path))
 
 
 def raw_depth_unit_m(path: Path) -> float:
     """Return metres per count of the stored depth images."""
-    return float(_request("raw_depth_unit_m", path))
+    return float(_request("session_file:raw_depth_unit_m", path))
 
 
 def read_raw(path: Path) -> Iterator[EncodedImages]:
     """Yield the stored images, frame by frame."""
     row = 0
-    while some := cast("list[EncodedImages]", _request("raw_some", path, row, RAW_CHUNK_BYTES)):
+    while some := cast("list[EncodedImages]", _request("session_file:read_raw_chunk", path, row, RAW_CHUNK_BYTES)):
         yield from some
         row += len(some)
 
 
 def read_raw_color(path: Path, row: int) -> bytes:
     """Return the stored colour image of a row; empty if there is none."""
-    return cast(bytes, _request("raw_color", path, row))
+    return cast(bytes, _request("session_file:read_raw_color", path, row))
 
 
 def verify(path: Path) -> VerificationResult:
     """Verify that a session is complete and unchanged; see :func:`core.session.session_file.verify`."""
-    return cast(VerificationResult, _request("verify", path))
+    return cast(VerificationResult, _request("session_file:verify", path))
 
 
 def finish_part(part: Path, when: str) -> Path | None:
     """Finish an interrupted part file; see :func:`core.session.rewriting.finish_part`."""
-    return cast("Path | None", _request("recover", part, when))
+    return cast("Path | None", _request("rewriting:finish_part", part, when))
 
 
 def rewrite_session(path: Path, target: Path, **attributes: str) -> None:
     """Write a session again with changed attributes; see :func:`core.session.rewriting.rewrite_session`."""
-    _request("rewrite_session", path, target, attributes)
+    _request("rewriting:rewrite_session", path, target, attributes)
 
 
 class ReadingProcess:
@@ -96,7 +109,10 @@ class ReadingProcess:
         self._owner = os.getpid()
 
     def request(self, name: str, path: Path, *arguments: object) -> Any:
-        """Send a request about a file and return its answer; raises its fault, or :class:`SessionUnreadable`."""
+        """Return what the function ``name`` (``"module:function"``) returns for a file, in the reading process.
+
+        Raises its fault, or :class:`SessionUnreadable`.
+        """
         with self._lock:
             request = (name, os.fspath(path.absolute()), arguments)  # the child keeps the folder it was started in
             link = self._start_child()
@@ -146,8 +162,7 @@ class ReadingProcess:
             self._child = None
         if self._child is None or not self._child.is_alive:
             self._end()
-            work = "carpus.core.session.reading_process:run"
-            self._child, self._owner = ChildProcess(work, name="reading", is_forked=_can_fork()), os.getpid()
+            self._child, self._owner = ChildProcess(run, name="reading", is_forked=_can_fork()), os.getpid()
         return self._child.link
 
     def _end(self) -> None:
@@ -169,7 +184,7 @@ def _request(name: str, path: Path, *arguments: object) -> Any:
         raise SessionMissing(path)
     if not is_file:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
         raise SessionUnreadable(path, phrase("a folder") if is_folder else phrase("not a file"))
-    return READING_PROCESS.request(name, path, *arguments)
+    return READING_PROCESS.request(f"carpus.core.session.{name}", path, *arguments)
 
 
 def _can_fork() -> bool:
@@ -189,3 +204,71 @@ class _AnswerUnpickler(pickle.Unpickler):
         if not is_own_class and not (module.startswith("numpy") and name in _NUMPY_NAMES):
             raise pickle.UnpicklingError(f"{module}.{name} is no part of an answer")
         return found
+
+
+# --- in the reading process -----------------------------------------------------------------------------------
+def run(link: Connection) -> None:
+    """Answer requests (function, path, arguments) until the owner is gone (entry point of the process).
+
+    An answer is sent as several messages: a count, the pickled answer, then the buffers of its arrays.
+    """
+    if sys.platform != "win32":
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)  # the limit ends the process
+    import_module("carpus.core.session.rewriting")  # before the first request and its limits
+    while True:
+        try:
+            name, path, arguments = link.recv()
+        except (EOFError, OSError):
+            return
+        try:
+            size_bytes = Path(path).stat().st_size
+        except OSError:
+            size_bytes = 0
+        _set_limits(size_bytes)
+        answer = _answer(name, Path(path), arguments)
+        if sys.platform != "win32":  # sending has no limits
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+            hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+            resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        buffers: list[pickle.PickleBuffer] = []
+        try:
+            packed = pickle.dumps(answer, protocol=5, buffer_callback=buffers.append)
+        except MemoryError:
+            text = "it asks for more memory than a session needs"
+            packed, buffers = pickle.dumps(("SessionUnreadable", ("", text))), []
+        try:
+            link.send_bytes(str(len(buffers)).encode())
+            link.send_bytes(packed)
+            for buffer in buffers:
+                link.send_bytes(buffer.raw())
+        except OSError:
+            return
+
+
+def _answer(name: str, path: Path, arguments: tuple[Any, ...]) -> tuple[str, Any]:
+    """Return ``done`` and the value, or the name of a fault with its subject and detail."""
+    try:
+        module, _, function = name.partition(":")
+        return "done", getattr(import_module(module), function)(path, *arguments)
+    except CarpusFault as fault:
+        return type(fault).__name__, (fault.subject, fault.detail)
+    except MemoryError:
+        return "SessionUnreadable", (str(path), "damaged: needs more memory than any session")
+    except Exception as cause:  # reported to the owner, not printed
+        log.info("reading %s: %s: %s", path, type(cause).__name__, cause)
+        return "SessionUnreadable", (str(path), phrase("damaged"))
+
+
+def _set_limits(size_bytes: int) -> None:
+    """Limit processor time and memory of this process, enforced by the system."""
+    if sys.platform == "win32":
+        return  # only the owner's timeout applies
+    signal.setitimer(signal.ITIMER_PROF, CPU_S + size_bytes / BYTES_PER_CPU_S)
+    room = min(BASE_MEMORY_BYTES + MEMORY_PER_BYTE * size_bytes, MAX_MEMORY_BYTES)
+    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    try:
+        in_use = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, ValueError, IndexError):
+        in_use = 2_000_000_000
+    wanted = in_use + room
+    resource.setrlimit(resource.RLIMIT_AS, (wanted if hard == resource.RLIM_INFINITY else min(wanted, hard), hard))

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
 import struct
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import h5py
+import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
@@ -19,14 +23,9 @@ from carpus.core.platform.durable import find_free_name, publish, temporary_path
 from carpus.core.session import schema
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
 from carpus.core.session.file_layout import create_dataset
-from carpus.core.session.session_file import layout_from_file, open_session, verify
-from carpus.core.session.structure import (
-    RowCounts,
-    count_readable_rows,
-    count_whole_rows,
-    find_growing_fields,
-    read_rows,
-)
+from carpus.core.session.plausibility import count_stored_rows
+from carpus.core.session.schema import Field
+from carpus.core.session.session_file import SessionFile, open_session, verify
 
 _SUPERBLOCK = struct.Struct("<8sB4xB10xQ8xQ")
 """Start of an HDF5 file: signature, version, size of addresses, base address, end-of-file address."""
@@ -57,7 +56,7 @@ def finish_part(part: Path, when: str) -> Path | None:
         part.unlink()
         return own_name
     target = find_free_name(own_name)
-    copy, new = temporary_path(target), temporary_path(target)
+    copy = temporary_path(target)
     try:
         shutil.copyfile(part, copy)
         copy.chmod(0o600)
@@ -66,28 +65,40 @@ def finish_part(part: Path, when: str) -> Path | None:
                 return None  # space was reserved, and nothing written
         _repair_file_end(copy)
         with open_session(copy) as old:
-            rows = count_whole_rows(old)
-            if rows.frames == 0:
-                return None
-            with h5py.File(new, "x", libver="earliest") as file:
-                new.chmod(0o600)
-                _copy_whole_rows(old, file, rows)
-                file.attrs["complete"] = True
-                file.attrs.setdefault(schema.RECOVERED, when)
-                file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
-        with new.open("r+b") as written:
-            os.fsync(written.fileno())
-        verify(new)
-        publish(new, target)
+            rows = _count_whole_rows(old)
+        if rows["N"] == 0:
+            return None
+        with _new_session(target) as file, open_session(copy) as old:
+            _copy_whole_rows(old, file, rows)
+            file.attrs["complete"] = True
+            file.attrs.setdefault(schema.RECOVERED, when)
+            file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
     except SessionUnreadable as fault:
         raise SessionUnreadable(part, fault.detail) from fault
     except OSError as cause:
         raise write_fault(target, cause) from cause
     finally:
         copy.unlink(missing_ok=True)
-        new.unlink(missing_ok=True)
     part.unlink()
     return target
+
+
+@contextmanager
+def _new_session(target: Path) -> Iterator[h5py.File]:
+    """Create a session file, which gets its name when it is complete and verified; after a fault nothing is left."""
+    part = temporary_path(target)
+    try:
+        with h5py.File(part, "x", libver="earliest") as file:
+            part.chmod(0o600)
+            yield file
+        with part.open("r+b") as written:
+            os.fsync(written.fileno())
+        verify(part)
+        publish(part, target)
+    except (OSError, RuntimeError) as cause:
+        raise write_fault(target, cause) from cause
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _repair_file_end(part: Path) -> None:
@@ -96,21 +107,18 @@ def _repair_file_end(part: Path) -> None:
     HDF5 writes that address last. After a kill before it, HDF5 refuses to read good data behind an end that is too
     early; space was reserved in advance, so the true length always covers them.
     """
-    try:
-        with part.open("r+b") as file:
-            start = file.read(_SUPERBLOCK.size)
-            length = file.seek(0, 2)
-            if len(start) < _SUPERBLOCK.size:
-                return
-            *kind, end = _SUPERBLOCK.unpack(start)
-            if kind == [b"\x89HDF\r\n\x1a\n", 0, 8, 0] and end < length:
-                file.seek(_END_OF_FILE_AT)
-                file.write(struct.pack("<Q", length))
-    except OSError as cause:
-        raise write_fault(part, cause) from cause
+    with part.open("r+b") as file:
+        start = file.read(_SUPERBLOCK.size)
+        length = file.seek(0, 2)
+        if len(start) < _SUPERBLOCK.size:
+            return
+        *kind, end = _SUPERBLOCK.unpack(start)
+        if kind == [b"\x89HDF\r\n\x1a\n", 0, 8, 0] and end < length:
+            file.seek(_END_OF_FILE_AT)
+            file.write(struct.pack("<Q", length))
 
 
-def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
+def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: Mapping[str, int]) -> None:
     """Copy a part file, each dataset cut to the rows that all of them have.
 
     Half a smoother's result is left out, since it can be computed again, and so is an unreadable table of repetitions.
@@ -120,17 +128,17 @@ def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
             file.attrs[name] = old.attrs[name]
     for name in ("camera", "calibration"):
         old.copy(name, file)
-    layout = layout_from_file(Path(old.filename), old)
+    layout = SessionFile(Path(old.filename), old).layout
     smoothed = {field.path: field for field in schema.SMOOTHED_FIELDS if layout.has(field)}
-    fields = {field.path: field for field, _ in find_growing_fields(old)}
+    fields = {field.path: field for field, _ in _growing_datasets(old)}
     with suppress(OSError, RuntimeError, KeyError):
-        if all(count_readable_rows(old[path]) == rows.frames for path in smoothed):
+        if all(_count_readable_rows(old[path]) == rows["N"] for path in smoothed):
             fields |= smoothed
     for path, field in fields.items():
-        end = rows.axis_length(str(field.shape[0]))
+        end = rows[str(field.shape[0])]
         dataset = create_dataset(file, field, layout)
         dataset.resize(end, axis=0)
-        kept = read_rows(old[path], end)
+        kept = _read_rows(old[path], end)
         dataset[:] = kept.view(dataset.dtype) if kept.dtype.kind == "S" else kept  # those of 0.2.0 are marked as UTF-8
     for name, names in layout.group_names().items():
         for group in (name, f"/smoothed{name}"):
@@ -140,6 +148,100 @@ def _copy_whole_rows(old: h5py.File, file: h5py.File, rows: RowCounts) -> None:
         file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = old["/raw"].attrs[schema.RAW_DEPTH_UNIT]
     with suppress(OSError, RuntimeError, KeyError):
         old.copy(schema.REPETITIONS.path, file)
+
+
+def _growing_datasets(file: h5py.File) -> list[tuple[Field, h5py.Dataset]]:
+    """Return the datasets of this file that grew while it was written; they differ in length."""
+    growing = (field for field in schema.ALL_FIELDS if field.shape[0] in schema.GROWING_AXES)
+    return [
+        (field, file[field.path]) for field in growing if field not in schema.SMOOTHED_FIELDS and field.path in file
+    ]
+
+
+def _count_whole_rows(file: h5py.File) -> dict[str, int]:
+    """Return how many rows from the start every dataset has, by axis; each frame has its detections and images."""
+    growing = _growing_datasets(file)
+    longest = {
+        axis: min((_count_readable_rows(data) for field, data in growing if field.shape[0] == axis), default=0)
+        for axis in schema.GROWING_AXES
+    }
+    timestamp_s = _read_rows(file["/frames/timestamp"], longest["N"])
+    is_valid = np.isfinite(timestamp_s)
+    is_valid[1:] &= np.diff(timestamp_s) > 0.0
+    frames = _count_leading(is_valid)
+    frames, detections = _count_with_detections(file, frames, longest["D"])
+    for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
+        if end.path in file:
+            reached = _read_rows(file[end.path], frames)
+            is_valid = reached >= 0
+            is_valid[1:] &= np.diff(reached) >= 0
+            reached = reached[: _count_leading(is_valid)]
+            frames = int(np.searchsorted(reached, longest[str(stream.shape[0])], side="right"))
+    ends = (
+        int(_read_rows(file[end.path], frames)[-1]) if end.path in file and frames > 0 else 0 for end in schema.RAW_ENDS
+    )
+    detections = min(detections, _count_with_detections(file, frames, longest["D"])[1])
+    events = 0
+    with suppress(OSError, RuntimeError, KeyError):  # a table of events that is broken does not condemn the frames
+        events = _count_leading(np.isfinite(_read_rows(file["/events/time"], longest["E"])))
+    return dict(zip(schema.GROWING_AXES, (frames, detections, events, *ends), strict=True))
+
+
+def _count_readable_rows(dataset: h5py.Dataset) -> int:
+    """Return the rows that can be read: a kill during a flush may leave the last chunk announced but unreachable."""
+    rows = int(dataset.shape[0])
+    if not dataset.chunks:
+        return rows
+    step = dataset.chunks[0]
+    rows = min(rows, count_stored_rows(dataset))
+    while rows > 0:
+        begin = (rows - 1) // step * step
+        try:
+            _read_rows(dataset, rows, begin)
+        except (OSError, RuntimeError):
+            rows = begin
+        else:
+            break
+    return rows
+
+
+def _read_rows(dataset: h5py.Dataset, end: int, first: int = 0) -> NDArray[Any]:
+    """Read rows of an interrupted session.
+
+    A chunk with a wrong checksum was being written when the program ended. Only its end is new, so it is read anyway,
+    and the times show which of its rows are valid.
+    """
+    try:
+        return np.asarray(dataset[first:end])
+    except (OSError, RuntimeError):
+        step = dataset.chunks[0] if dataset.chunks else 0
+        last = (end - 1) // step * step if step else 0
+        if not step or not dataset.fletcher32 or last < first or dataset.dtype.kind == "O":
+            raise
+        torn = _read_chunk(dataset, last)[: end - last]
+        return np.concatenate((np.asarray(dataset[first:last]), torn)) if last > first else torn
+
+
+def _read_chunk(dataset: h5py.Dataset, begin: int) -> NDArray[Any]:
+    """Return the chunk that starts at a row, whatever its checksum."""
+    _, stored = dataset.id.read_direct_chunk((begin, *(0 for _ in dataset.shape[1:])))
+    size = math.prod(dataset.chunks) * dataset.dtype.itemsize
+    return np.frombuffer(stored, dataset.dtype, size // dataset.dtype.itemsize).reshape(dataset.chunks)
+
+
+def _count_leading(good: np.ndarray) -> int:
+    return len(good) if good.all() else int(np.argmin(good))
+
+
+def _count_with_detections(file: h5py.File, frames: int, blobs: int) -> tuple[int, int]:
+    """Return how many frames have all their detections, and how many detections these are."""
+    if schema.DETECTION_COUNT.path not in file:
+        return frames, int(np.searchsorted(_read_rows(file[schema.DETECTION_FRAME.path], blobs), frames))
+    counts = _read_rows(file[schema.DETECTION_COUNT.path], frames)
+    counts = counts[: _count_leading(counts >= 0)]
+    reached = np.cumsum(counts, dtype=np.int64)
+    frames = int(np.searchsorted(reached, blobs, side="right"))
+    return frames, int(reached[frames - 1]) if frames > 0 else 0
 
 
 def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> None:
@@ -153,24 +255,12 @@ def rewrite_session(path: Path, target: Path, changed: Mapping[str, str]) -> Non
         It could not be written; nothing is left.
     """
     verify(path)
-    with open_session(path) as old:
-        part = temporary_path(target)
-        try:
-            with h5py.File(part, "x", libver="earliest") as file:
-                part.chmod(0o600)
-                attributes = {**old.attrs, **changed}
-                for name in sorted(attributes, key=[*schema.ROOT_ATTRIBUTES, *attributes].index):  # as it was recorded
-                    if name != CHECKSUM_ATTRIBUTE:
-                        file.attrs[name] = attributes[name]
-                for name in old:
-                    old.copy(name, file)
-                if CHECKSUM_ATTRIBUTE in old.attrs:
-                    file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
-            with part.open("rb") as written:
-                os.fsync(written.fileno())
-            verify(part)
-            publish(part, target)
-        except (OSError, RuntimeError) as cause:
-            raise write_fault(target, cause) from cause
-        finally:
-            part.unlink(missing_ok=True)
+    with open_session(path) as old, _new_session(target) as file:
+        attributes = {**old.attrs, **changed}
+        for name in sorted(attributes, key=[*schema.ROOT_ATTRIBUTES, *attributes].index):  # as it was recorded
+            if name != CHECKSUM_ATTRIBUTE:
+                file.attrs[name] = attributes[name]
+        for name in old:
+            old.copy(name, file)
+        if CHECKSUM_ATTRIBUTE in old.attrs:
+            file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)

@@ -31,11 +31,11 @@ from carpus.core.session.plausibility import (
     ContentError,
     check_detections,
     check_header,
+    check_structure,
     check_values,
     damage_error,
 )
 from carpus.core.session.schema import Field, TableLayout
-from carpus.core.session.structure import RowCounts, check_structure
 from carpus.core.session.values import (
     DetectionTable,
     EncodedImages,
@@ -60,29 +60,19 @@ def read_session(path: Path) -> Session:
     Detections and images are read by :func:`read_detections` and :func:`read_raw_chunk`.
     """
     with open_session(path) as file:
-        return _SessionFile(path, file).read_session()
-
-
-def session_from_file(path: Path, file: h5py.File) -> Session:
-    """Read a session from an open file."""
-    return _SessionFile(path, file).read_session()
-
-
-def layout_from_file(path: Path, file: h5py.File) -> TableLayout:
-    """Return the layout of an open file."""
-    return _SessionFile(path, file).layout
+        return SessionFile(path, file).read_session()
 
 
 def read_outline(path: Path) -> SessionOutline:
     """Read header, length and state of a session, without its data."""
     with open_session(path) as file:
-        return _SessionFile(path, file).read_outline()
+        return SessionFile(path, file).read_outline()
 
 
 def read_detections(path: Path) -> DetectionTable:
     """Read the detections of every frame of a session."""
     with open_session(path) as file:
-        source = _SessionFile(path, file)
+        source = SessionFile(path, file)
         pixel, depth, depth_sd, area, similarity = (source.read_array(field) for field in schema.DETECTION_FIELDS)
         blobs = Detections(pixel, depth, depth_sd, area, similarity)
         check_detections(blobs)
@@ -126,7 +116,7 @@ def raw_depth_unit_m(path: Path) -> float:
 def read_raw_chunk(path: Path, first_row: int, max_bytes: int) -> Sequence[EncodedImages]:
     """Return the stored images from a row on, at most ``max_bytes`` but at least one; none at the end."""
     with open_session(path) as file:
-        source = _SessionFile(path, file)
+        source = SessionFile(path, file)
         ends = [source.read_raw_ends(number) for number in range(len(schema.RAW_ENDS))]
         color, depth = (file[field.path] for field in schema.RAW_STREAMS)
         images: list[EncodedImages] = []
@@ -144,7 +134,7 @@ def read_raw_chunk(path: Path, first_row: int, max_bytes: int) -> Sequence[Encod
 def read_raw_color(path: Path, row: int) -> bytes:
     """Return the stored colour image of a row; empty if there is none."""
     with open_session(path) as file:
-        color_end, color = _SessionFile(path, file).read_raw_ends(0), file[schema.RAW_STREAMS[0].path]
+        color_end, color = SessionFile(path, file).read_raw_ends(0), file[schema.RAW_STREAMS[0].path]
         if not 0 <= row < len(color_end):
             return b""
         start = int(color_end[row - 1]) if row else 0
@@ -192,7 +182,7 @@ def _format_version(file: h5py.File) -> int:
     return int(file.attrs.get("format_version", 0))
 
 
-class _SessionFile:
+class SessionFile:
     """Open session file: its header, and its datasets checked against the schema."""
 
     def __init__(self, path: Path, file: h5py.File) -> None:
@@ -255,7 +245,7 @@ class _SessionFile:
         )
 
     def read_outline(self) -> SessionOutline:
-        frames = self._rows.frames
+        frames = self._rows["N"]
         times = self._file["/frames/timestamp"]
         duration_s = float(times[frames - 1] - times[0]) if frames else 0.0
         if not 0.0 <= duration_s <= MAX_DURATION_S:
@@ -272,7 +262,7 @@ class _SessionFile:
         """Return a dataset of the schema's type and shape, read-only; a missing optional one is unknown."""
         expected = self.layout.row_shape(field)
         if field.shape[0] in schema.GROWING_AXES:
-            expected = (self._rows.axis_length(str(field.shape[0])), *expected)
+            expected = (self._rows[str(field.shape[0])], *expected)
         if field.path not in self._file:
             if not field.optional:
                 raise ContentError(phrase("no dataset {path}", path=field.path))
@@ -337,15 +327,16 @@ class _SessionFile:
         return header
 
     @cached_property
-    def _rows(self) -> RowCounts:
+    def _rows(self) -> dict[str, int]:
+        """Length of each growing axis."""
         if not self._read_attribute("complete"):
             raise errors.SessionUnfinished(self._path)
-        lengths = (self._file[path].shape[0] for path in ("/frames/timestamp", "/detections/frame", "/events/time"))
-        streams = (self._file[f.path].shape[0] if f.path in self._file else 0 for f in schema.RAW_STREAMS)
-        return RowCounts(*lengths, *streams)
+        paths = ("/frames/timestamp", "/detections/frame", "/events/time", *(f.path for f in schema.RAW_STREAMS))
+        lengths = (self._file[path].shape[0] if path in self._file else 0 for path in paths)
+        return dict(zip(schema.GROWING_AXES, lengths, strict=True))
 
     def _read_motion(self, fields: tuple[Field, ...]) -> Motion:
-        rows = self._rows.frames
+        rows = self._rows["N"]
         nothing = {2: (rows, 0), 3: (rows, 0, 3)}
         values = {
             field.attribute: self.read_array(field) if self.layout.has(field) else np.empty(nothing[len(field.shape)])

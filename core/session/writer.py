@@ -28,14 +28,17 @@ from carpus.core.platform.durable import (
 )
 from carpus.core.session import schema
 from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
-from carpus.core.session.columns import Blocks, build_event_blocks, build_frame_blocks, build_motion_blocks
 from carpus.core.session.file_layout import (
     ROWS_AT_ONCE,
+    Blocks,
     build_empty_session,
+    build_event_blocks,
+    build_frame_blocks,
+    build_motion_blocks,
     create_repetitions,
     create_smoother_datasets,
 )
-from carpus.core.session.session_file import layout_from_file, session_from_file
+from carpus.core.session.session_file import SessionFile
 from carpus.core.session.values import Event, Motion, Repetitions, Session, SessionHeader
 
 _TIMES = schema.FRAME_FIELDS[0].path
@@ -65,7 +68,6 @@ class SessionWriter(FileWriter):
         self._temporary = temporary_path(path)
         self._rows: dict[str, int] = {}
         self._pending_frames: list[TrackedFrame] = []
-        self._written: dict[str, int] = {}
         self._pending: dict[str, list[Any]] = {}
         self._digests: dict[str, Any] = {}
         self._last_time_s = -np.inf
@@ -78,7 +80,7 @@ class SessionWriter(FileWriter):
             raise write_fault(path.parent, cause) from cause
         self._descriptor = os.open(self._temporary, os.O_RDWR)
         self._file = h5py.File(self._temporary, "r+", libver="earliest", rdcc_nbytes=0)
-        self._layout = layout_from_file(path, self._file)
+        self._layout = SessionFile(path, self._file).layout
 
     @classmethod
     def create(cls, path: Path, header: SessionHeader, camera: Camera, calibration: Calibration) -> Self:
@@ -110,7 +112,7 @@ class SessionWriter(FileWriter):
         for path, data in blocks.items():
             self._pending.setdefault(path, []).append(data)
             self._rows[path] = self._rows.get(path, 0) + len(data)
-        if self._rows.get(_TIMES, 0) - self._written.get(_TIMES, 0) >= ROWS_AT_ONCE:
+        if self._rows.get(_TIMES, 0) - self._file[_TIMES].shape[0] >= ROWS_AT_ONCE:
             self._write(whole_chunks=True)
 
     def write_motion(self, motion: Motion) -> None:
@@ -137,13 +139,13 @@ class SessionWriter(FileWriter):
             with self._reserve_and_flush(0):
                 del self._file["/smoothed"]
             for field in schema.SMOOTHED_FIELDS:
-                for known in (self._pending, self._rows, self._written, self._digests):
+                for known in (self._pending, self._rows, self._digests):
                     known.pop(field.path, None)
 
     def read_session(self) -> Session:
         """Return the session as written so far."""
         self.flush()
-        return session_from_file(self.path, self._file)
+        return SessionFile(self.path, self._file).read_session()
 
     def write_repetitions(self, repetitions: Repetitions) -> None:
         """Write the table of repetitions, once all frames are there."""
@@ -220,7 +222,6 @@ class SessionWriter(FileWriter):
                 dataset.resize(begin + len(data), axis=0)
                 dataset[begin:] = data
         for path, data in rows.items():
-            self._written[path] = self._written.get(path, 0) + len(data)
             dataset = self._file[path]
             try:  # read back for the checksum of the file
                 stored = to_bytes(np.asarray(dataset[dataset.shape[0] - len(data) :]))

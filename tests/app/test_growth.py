@@ -135,7 +135,6 @@ def test_registered_lines_lead_to_their_files() -> None:
 
 REACHED_OTHERWISE = {
     "app.commands": "by the name of a command",
-    "core.session.reading_process": "in a process of its own",
     "core.records.migrations": "by Alembic",
 }
 

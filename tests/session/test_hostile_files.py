@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from carpus.core.model.errors import SessionUnreadable
-from carpus.core.session import reader, reading_process
+from carpus.core.session import reader
 from carpus.core.session.reader import ReadingProcess, read_outline, read_session
 from carpus.core.session.values import EncodedImages, Session
 from tests.session.samples import add_pictures, begin_session, make_frame, make_header, write_once
@@ -167,17 +167,18 @@ def dying(path: Path) -> None:
 
 @pytest.fixture
 def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
-    """A reading process of this test's own that has more questions; ended with the test."""
-    own = ReadingProcess()
-    for name, question in {"loop": sleepless, "greed": greedy, "die": dying}.items():
-        monkeypatch.setitem(reading_process.QUESTIONS, name, question)
-    monkeypatch.setattr(reader, "_can_fork", lambda: True)  # a new process would not know these questions
-    return own
+    """A reading process of this test's own."""
+    monkeypatch.setattr(reader, "_can_fork", lambda: True)  # quicker
+    return ReadingProcess()
 
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("loop", "the end cannot be read|could not finish"), ("die", "the end cannot be read"), ("greed", "more memory")],
+    [
+        ("sleepless", "the end cannot be read|could not finish"),
+        ("dying", "the end cannot be read"),
+        ("greedy", "more memory"),
+    ],
 )
 def test_hostile_file_affects_reading_process_only(
     tmp_path: Path, another: ReadingProcess, name: str, said: str
@@ -187,9 +188,9 @@ def test_hostile_file_affects_reading_process_only(
     path = store_session(tmp_path / "s.h5")
     start_s = time.monotonic()
     with pytest.raises(SessionUnreadable, match=said):
-        another.request(name, path)
+        another.request(f"{__name__}:{name}", path)
     assert time.monotonic() - start_s < 60.0  # 1.2 s of a processor's time, on a computer with other work
-    read = another.request("session", path)
+    read = another.request("carpus.core.session.session_file:read_session", path)
     assert isinstance(read, Session)
     assert len(read) == ROWS
     another.end()

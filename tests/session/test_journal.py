@@ -13,7 +13,7 @@ import pytest
 
 from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.model.hand.protocols import HAND21
-from carpus.core.session.columns import Blocks, build_frame_blocks
+from carpus.core.session.file_layout import Blocks, build_frame_blocks
 from carpus.core.session.journal import JournalReader, unpack_arrays
 from carpus.core.session.schema import TableLayout
 from tests.moments import with_moment
