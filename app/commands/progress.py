@@ -85,7 +85,7 @@ def read_measures(
     subject: str, places: list[Path], settings: Settings
 ) -> tuple[list[SessionResults], list[MeasureRow]]:
     """Return a patient's sessions, each in its newest version, and the rows of all their measures."""
-    from carpus.core.records.limits_file import read_limits
+    from carpus.core.records.clinic_records import read_limits
     from carpus.core.results.measures_table import build_measure_rows
     from carpus.core.results.progress import select_latest_versions
 

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
         form = replace(form, paper=arguments.paper)
     look = {"form": form, "language": arguments.language, "therapist": settings.report.therapist}
     # Qt is loaded only now: a wrong file is told without it.
-    from carpus.core.records.limits_file import read_limits
+    from carpus.core.records.clinic_records import read_limits
     from carpus.core.results.progress import select_latest_versions
     from carpus.core.results.session_results import compute_session_results
     from carpus.ui.report.page import Report

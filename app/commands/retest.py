@@ -64,7 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.records.limits_file import save_limits
+    from carpus.core.records.clinic_records import save_limits
     from carpus.core.research.agreement.retest import analyse_retests, list_retests, write_retests
 
     figures, raters = read_figures(arguments.sessions, print_fault, _read_raters(arguments.raters))

@@ -236,13 +236,14 @@ class MainController(Screens):
         if self.messages.is_busy or self.navigator.is_recording() or self.current.source is not None:
             return
         try:
-            found = self._library.open_file(path)
+            header = self._library.open_file(path)
+            owner_id = self._library.owner_id(header.session_id)
         except CarpusFault as fault:
             self.messages.show_fault(fault)
             return
-        if not found.patient_id:  # of nobody here: shown under the name in its file
-            self.current.patient = Patient(found.subject_id.strip() or "?", found.side)
-        self.review.open(found.session_id, found.patient_id)
+        if not owner_id:  # of nobody here: shown under the name in its file
+            self.current.patient = Patient(header.subject_id.strip() or "?", header.hand)
+        self.review.open(header.session_id, owner_id)
 
     def _handle_key(self, name: str) -> None:
         actions: dict[str, Callable[[], object]] = {

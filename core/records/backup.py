@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
-from typing import Any
+from typing import Any, NamedTuple
 
 from carpus.core.model import errors
 from carpus.core.model.phrase import phrase
@@ -65,34 +65,34 @@ class BackupFile:
 class Backup:
     """One backup.
 
-    ``session_count`` counts session files, ``missing_count`` files that could not be read. ``data_folder`` is empty in
-    backups of Carpus 0.2.0.
+    ``missing_count`` counts files that could not be read. ``data_folder`` is empty in backups of Carpus 0.2.0.
     """
 
     name: str
     made: datetime
     files: tuple[BackupFile, ...]
-    session_count: int
-    size_bytes: int
     missing_count: int
     software_version: str
     data_folder: str
 
+    @property
+    def session_count(self) -> int:
+        return sum(one.path.endswith(".h5") for one in self.files)
 
-@dataclass(frozen=True, slots=True)
-class BackupSources:
+    @property
+    def size_bytes(self) -> int:
+        return sum(one.size for one in self.files)
+
+
+class BackupSources(NamedTuple):
     """Sources of a backup: ``snapshot`` of the store (may be empty) and ``files``.
 
     Each file has its path in the backup, its source and its size; ``missing`` names what cannot be read.
     """
 
     snapshot: bytes
-    files: tuple[tuple[str, Path, int], ...]
-    missing: tuple[str, ...]
-
-    @property
-    def size_bytes(self) -> int:
-        return len(self.snapshot) + sum(size for _, _, size in self.files)
+    files: list[tuple[str, Path, int]]
+    missing: list[str]
 
 
 def create_backup(
@@ -132,20 +132,20 @@ def create_backup(
 def _write_backup(
     data_folder: Path, sources: BackupSources, backup_folder: Path, now: datetime, progress: Progress
 ) -> Backup:
+    snapshot, found, lacking = sources
     before = list_backups(backup_folder)
     known = {one.path: one for one in before[0].files} if before else {}
-    done, total = 0, 2 * sources.size_bytes or 1
-    files, lacking, of = list[BackupFile](), list(sources.missing), dict[str, Path]()
-    if sources.snapshot:
-        files.append(_store_object(backup_folder, STORE_FILE, iter((sources.snapshot,)), 0))
-    for path, source, size in sources.files:
+    done, total = 0, 2 * (len(snapshot) + sum(size for _, _, size in found)) or 1
+    files, of = list[BackupFile](), dict[str, Path]()
+    if snapshot:
+        files.append(_store_object(backup_folder, STORE_FILE, iter((snapshot,)), 0))
+    for path, source, size in found:
         try:
             files.append(_back_up_file(path, source, backup_folder, known.get(path)))
             of[path] = source
-        except BackupSourceMissing:
-            pass  # taken away meanwhile
-        except BackupSourceError:
-            lacking.append(path)
+        except BackupSourceError as fault:
+            if not isinstance(fault.__cause__, FileNotFoundError):  # else taken away meanwhile
+                lacking.append(path)
         done += size
         progress(done, total)
     for number, one in enumerate(files):
@@ -163,10 +163,7 @@ def _write_backup(
     name = find_free_name(
         backup_folder / BACKUPS / f"{when:%Y-%m-%dT%H%M%S}.json"
     ).stem  # two of one second are two all the same
-    made = Backup(
-        name, when, tuple(files), sum(one.path.endswith(".h5") for one in files), sum(one.size for one in files),
-        len(lacking), __version__, str(data_folder.absolute()),
-    )  # fmt: skip
+    made = Backup(name, when, tuple(files), len(lacking), __version__, str(data_folder.absolute()))
     replace_text(backup_folder / BACKUPS / f"{made.name}.json", json.dumps(backup_to_dict(made), indent=1))
     if lacking:
         raise errors.BackupIncomplete(lacking[0], str(len(lacking)))
@@ -205,7 +202,7 @@ def collect_sources(
     for name, path in files:
         with contextlib.suppress(FileNotFoundError):
             sized.append((name, path, path.stat().st_size))
-    return BackupSources(snapshot, tuple(sized), tuple(lacking))
+    return BackupSources(snapshot, sized, lacking)
 
 
 def list_backups(backup_folder: Path) -> list[Backup]:
@@ -244,8 +241,6 @@ def read_backup(path: Path) -> Backup:
             path.stem,
             made,
             files,
-            _parse_count(content["sessions"]),
-            _parse_count(content["size_bytes"]),
             _parse_count(content["lacking"]),
             str(content["software_version"]),
             str(content.get("data_folder", "")),
@@ -367,11 +362,7 @@ def _read_store(path: Path, copy_store: Callable[[], sqlite3.Connection] | None)
 
 
 class BackupSourceError(Exception):
-    """File of the data folder that cannot be read."""
-
-
-class BackupSourceMissing(BackupSourceError):
-    """File of the data folder that no longer exists."""
+    """File of the data folder that cannot be read; the cause says whether it no longer exists."""
 
 
 @contextlib.contextmanager
@@ -394,8 +385,6 @@ def _read_blocks(source: Path) -> Iterator[bytes]:
         with source.open("rb") as file:
             while block := file.read(BLOCK_BYTES):
                 yield block
-    except FileNotFoundError as cause:
-        raise BackupSourceMissing from cause
     except OSError as cause:
         raise BackupSourceError from cause
 
@@ -403,8 +392,6 @@ def _read_blocks(source: Path) -> Iterator[bytes]:
 def _back_up_file(path: str, source: Path, backup_folder: Path, previous: BackupFile | None) -> BackupFile:
     try:
         state = source.stat()
-    except FileNotFoundError as cause:
-        raise BackupSourceMissing from cause
     except OSError as cause:
         raise BackupSourceError from cause
     changed_ns = max(0, state.st_mtime_ns)

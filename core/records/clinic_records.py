@@ -1,25 +1,32 @@
-"""Records of the clinic: report form, therapists, recipients of letters, backups, and last used folders."""
+"""Records of the clinic: report form, therapists, recipients, exercise sets, backups, error limits, used folders."""
 
 from __future__ import annotations
 
 import base64
 import json
+import math
 import time
 import uuid
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from datetime import datetime
+from dataclasses import asdict, dataclass
+from datetime import date, datetime
 from pathlib import Path
 from typing import Any
 
 from sqlalchemy import Row, select
 
-from carpus.core.model.errors import ConcurrentChange
+from carpus.core.formats.output_files import write_new_json
+from carpus.core.measures.change_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.model.errors import ConcurrentChange, SettingsInvalid
+from carpus.core.model.hand.exercises import EXERCISES, get_exercise
+from carpus.core.model.hand.protocols import protocol_names
 from carpus.core.model.names import fold_name
+from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import replace_text
 from carpus.core.records.changes import delete_row, insert_row, update_row, upsert_row
-from carpus.core.records.schema import BACKUP, RECIPIENT, REPORT_FORM, SESSION, THERAPIST
+from carpus.core.records.schema import BACKUP, EXERCISE_SET, RECIPIENT, REPORT_FORM, SESSION, THERAPIST
+from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import Therapist, parse_time
 from carpus.core.results.report_form import Letterhead, Paper, ReportForm
@@ -156,3 +163,123 @@ def _form_from_row(row: Row[Any]) -> ReportForm:
         Letterhead(row.name, tuple(json.loads(row.address)), base64.b64decode(row.logo)), row.paper,
         frozenset(json.loads(row.left_out)), tuple(json.loads(row.sentences)), bool(row.prints_names),
     )  # fmt: skip
+
+
+def read_sets(store: Store) -> tuple[ExerciseSet, ...]:
+    """Return the clinic's sets, without those whose exercises are unknown."""
+    rows = store.rows(select(EXERCISE_SET).order_by(EXERCISE_SET.c.place))
+    sound = store.valid_rows(
+        (row for row in rows if not row.gone), lambda row: [_set_from_row(row)] if _has_known_exercises(row) else []
+    )
+    return tuple(one for found in sound for one in found) if rows else DEFAULT_SETS
+
+
+def save_sets(store: Store, sets: Sequence[ExerciseSet], previous: Sequence[ExerciseSet]) -> None:
+    """Store sets in place of ``previous``; those added by somebody else stay.
+
+    Raises :class:`ConcurrentChange` if somebody else changed one of them, and the faults of writing.
+    """
+    there, read = {row.id: row for row in store.rows(select(EXERCISE_SET))}, {one.set_id: one for one in previous}
+    change = []
+    for place, one in enumerate(sets):
+        row = there.get(one.set_id)
+        if row is None:
+            change.append(insert_row(EXERCISE_SET, one.set_id, **_set_columns(one), place=place))
+        elif row.gone or read.get(one.set_id) != one or row.place != place:
+            if not row.gone and store.valid_rows([row], _set_from_row) != [read.get(one.set_id)]:
+                raise ConcurrentChange(EXERCISE_SET.name)
+            change.append(update_row(EXERCISE_SET, one.set_id, row.version, **_set_columns(one), place=place, gone=0))
+    for gone in sorted(read.keys() - {one.set_id for one in sets}):
+        change.append(upsert_row(EXERCISE_SET, gone, **_set_columns(read[gone]), gone=1))
+    store.apply(change)
+
+
+def _has_known_exercises(row: Row[Any]) -> bool:
+    names = {exercise.id for exercise in EXERCISES}
+    return row.discs in protocol_names() and all(part[0] in names for part in json.loads(row.parts))
+
+
+def _set_from_row(row: Row[Any]) -> ExerciseSet:
+    parts = tuple(SetPart(get_exercise(name), *counts) for name, *counts in json.loads(row.parts))
+    return ExerciseSet(row.id, row.name, row.discs, parts)
+
+
+def _set_columns(one: ExerciseSet) -> dict[str, str]:
+    parts = [[part.exercise.id, part.repetitions, part.seconds, part.rest_s] for part in one.parts]
+    return {"name": one.name, "discs": one.protocol_name, "parts": json.dumps(parts)}
+
+
+LIMITS_FILE, LIMITS_FORMAT, LIMITS_VERSION = "error_limits.json", "carpus-error-limits", 1
+
+
+def read_limits(data_folder: Path) -> ErrorLimits:
+    """Return the clinic's own limits, none without a file. Raises :class:`SettingsInvalid`."""
+    path = data_folder / LIMITS_FILE
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return ErrorLimits()
+    except (OSError, ValueError, RecursionError) as cause:
+        raise SettingsInvalid(path, phrase("not readable as JSON, so the default limits apply")) from cause
+    try:
+        if content["format"] != LIMITS_FORMAT or content["format_version"] != LIMITS_VERSION:
+            raise ValueError("another format")
+        return ErrorLimits(tuple(_parse_study(one) for one in content["studies"]))
+    except (KeyError, TypeError, ValueError, AttributeError) as cause:
+        raise SettingsInvalid(path, phrase("no limits, so the default limits apply")) from cause
+
+
+def _parse_study(content: dict[str, Any]) -> RetestStudy:
+    date.fromisoformat(content["made"])
+    limits = tuple(
+        MeasuredLimit(
+            str(one["of"]),
+            str(one["movement"]),
+            int(one["people"]),
+            _parse_error_deg(one["sem_deg"]),
+            _parse_interval(one["sem_interval_deg"]),
+            _parse_error_deg(one["mdc95_deg"]),
+            _parse_interval(one["mdc95_interval_deg"]),
+        )
+        for one in content["limits"]
+    )
+    return RetestStudy(
+        str(content["protocol"]),
+        str(content["exercise"]),
+        str(content["angle_order"]),
+        str(content["made"]),
+        int(content["people"]),
+        int(content["sessions"]),
+        int(content["raters"]),
+        limits,
+    )
+
+
+def _parse_error_deg(value: Any) -> float:
+    number = float(value)
+    if not 0.0 <= number < 360.0:
+        raise ValueError(f"{number} is no error in degrees")
+    return number
+
+
+def _parse_interval(value: Any) -> tuple[float, float]:
+    low, high = value
+    return tuple(math.nan if one is None else float(one) for one in (low, high))  # type: ignore[return-value]
+
+
+def save_limits(data_folder: Path, studies: Sequence[RetestStudy]) -> Path:
+    """Save studies, each in place of an earlier one of its kind; return the file.
+
+    Raises :class:`SettingsInvalid` if the present file is damaged, and the faults of writing.
+    """
+    path = data_folder / LIMITS_FILE
+    kinds = {(one.protocol, one.exercise, one.angle_order) for one in studies}
+    kept = (
+        one for one in read_limits(data_folder).studies if (one.protocol, one.exercise, one.angle_order) not in kinds
+    )
+    content = {
+        "format": LIMITS_FORMAT,
+        "format_version": LIMITS_VERSION,
+        "studies": [asdict(one) for one in (*kept, *studies)],
+    }
+    return write_new_json(path, content, overwrite=True)

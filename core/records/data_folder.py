@@ -6,7 +6,7 @@ import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,11 +20,10 @@ from carpus.core.measures.change_limits import DEFAULT_LIMITS
 from carpus.core.measures.manual_measurements import ManualValue
 from carpus.core.model.errors import CarpusFault, ServerUnavailable, SessionUnreadable
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.phrase import phrase
-from carpus.core.model.types import ByteImage, Side
+from carpus.core.model.types import ByteImage
 from carpus.core.records import patients, session_records
+from carpus.core.records.clinic_records import read_limits
 from carpus.core.records.erasure import resume_erasures
-from carpus.core.records.limits_file import read_limits
 from carpus.core.records.log import AuditLog, AuditLogWriter, AuditSource
 from carpus.core.records.patients import Patients
 from carpus.core.records.session_list import SessionList, to_file_name
@@ -36,7 +35,7 @@ from carpus.core.results.ranges import with_angle_order
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import SessionResults, compute_session_results
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
-from carpus.core.session.values import AngleOrder, Session
+from carpus.core.session.values import AngleOrder, Session, SessionHeader
 
 MAX_OPEN_RECORDINGS = 2
 """Two sessions are shown side by side."""
@@ -82,16 +81,6 @@ class StoredFrames:
             return self._raw_recording.load_color(float(self._times_s[row]))
         data = read_raw_color(self.path, row) if self._is_in_session else b""
         return decode_color(data) if data else None
-
-
-@dataclass(frozen=True, slots=True)
-class OpenedSession:
-    """Session file opened by its path; ``patient_id`` is empty if it is not listed."""
-
-    patient_id: str
-    session_id: str
-    subject_id: str
-    side: Side
 
 
 class DataFolder:
@@ -182,38 +171,28 @@ class DataFolder:
 
     def entry(self, session_id: str) -> SessionEntry:
         """Return a session by its id. Raises :class:`SessionUnreadable` if there is none."""
-        if session_id in self.unlisted:
-            return self.unlisted[session_id]
-        with suppress(KeyError):
-            return self.session_list.get(session_id)
-        raise SessionUnreadable(session_id, phrase("not in the patient list"))
+        return self.unlisted.get(session_id) or self.session_list.get(session_id)
 
     def is_listed(self, session_id: str) -> bool:
-        with suppress(KeyError):
+        with suppress(SessionUnreadable):
             return bool(self.session_list.get(session_id))
         return False
 
     def owner_id(self, session_id: str) -> str:
         """Return the patient of a session; empty for none."""
-        if session_id in self.unlisted:
-            return ""
-        with suppress(KeyError):
-            return self.session_list.owner_id(session_id)
+        with suppress(SessionUnreadable):
+            return "" if session_id in self.unlisted else self.session_list.owner_id(session_id)
         return ""
 
-    def open_file(self, path: Path) -> OpenedSession:
+    def open_file(self, path: Path) -> SessionHeader:
         """Open a session file anywhere; one that is not listed is known until the program ends.
 
         Raises what reading the file raises.
         """
         outline = read_outline(path)
-        header = outline.header
-        with suppress(KeyError):
-            return OpenedSession(
-                self.session_list.owner_id(header.session_id), header.session_id, header.subject_id, header.hand
-            )
-        self.unlisted[header.session_id] = entry_from_outline(path, outline)
-        return OpenedSession("", header.session_id, header.subject_id, header.hand)
+        if not self.is_listed(outline.header.session_id):
+            self.unlisted[outline.header.session_id] = entry_from_outline(path, outline)
+        return outline.header
 
     # --- what is read of a session ------------------------------------------------------------------------
     def session(self, session_id: str) -> Session:
@@ -238,9 +217,7 @@ class DataFolder:
         """Return every result of a session's recording, oldest first."""
         if session_id in self.unlisted:
             return [self.unlisted[session_id]]
-        with suppress(KeyError):
-            return self.session_list.result_versions(session_id)
-        raise SessionUnreadable(session_id, phrase("not in the patient list"))
+        return self.session_list.result_versions(session_id)
 
     def choices(self, session_id: str) -> RepetitionChoices:
         if session_id in self.unlisted:

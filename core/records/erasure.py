@@ -65,7 +65,8 @@ class ErasurePlan:
 def plan_session(store: Store, session_id: str) -> ErasurePlan:
     """Plan the erasure of a recording with all its results, also those copied in since.
 
-    Raises KeyError, :class:`ErasureBlockedByLink`, :class:`FolderMissing` while the share is away.
+    Raises :class:`SessionUnreadable` without such a session, :class:`ErasureBlockedByLink`, and :class:`FolderMissing`
+    while the share is away.
     """
     SessionFileScanner(store).scan(reports_faults=False)
     sessions = SessionList(store)
@@ -77,7 +78,7 @@ def plan_session(store: Store, session_id: str) -> ErasurePlan:
 def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
     """Plan the erasure of a patient with all sessions, also those copied in since.
 
-    Raises KeyError, :class:`ErasureBlockedByLink`, :class:`FolderMissing`.
+    Raises :class:`SessionUnreadable` without such a patient, :class:`ErasureBlockedByLink`, :class:`FolderMissing`.
     """
     SessionFileScanner(store).scan(reports_faults=False)
     Patients(store).get(patient_id)

@@ -18,7 +18,7 @@ from typing import Literal, get_args
 
 from sqlalchemy import select
 
-from carpus.core.model.errors import CarpusFault, ServerUnavailable
+from carpus.core.model.errors import CarpusFault, ServerUnavailable, SessionUnreadable
 from carpus.core.records.changes import fingerprint, insert_row
 from carpus.core.records.schema import AUDIT_LOG
 from carpus.core.records.session_setup import PRACTICE_PATIENT
@@ -75,7 +75,8 @@ class AuditLogWriter:
 class AuditLog:
     """Log of what is done with sessions and patients, without the practice patient.
 
-    Faults of writing go to ``on_fault`` and undo nothing. ``owner_id`` returns a session's patient or raises KeyError.
+    Faults of writing go to ``on_fault`` and undo nothing. ``owner_id`` returns a session's patient or raises
+    :class:`SessionUnreadable`.
     """
 
     def __init__(
@@ -84,7 +85,7 @@ class AuditLog:
         self._writer, self._owner_id, self._on_fault = writer, owner_id, on_fault
 
     def log_session(self, action: AuditAction, session_id: str, **facts: Fact) -> None:
-        with suppress(KeyError, ServerUnavailable):  # of a folder that went away: noted when it comes home
+        with suppress(SessionUnreadable, ServerUnavailable):  # of a folder that went away: noted when it comes home
             if self._owner_id(session_id) != PRACTICE_PATIENT:
                 self._write(action, "session", session_id, **facts)
 

@@ -20,8 +20,8 @@ from carpus.core.platform.durable import make_private_folder, write_fault
 from carpus.core.records.changes import is_patient_id
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import delete_orphan_folders
-from carpus.core.records.exercise_sets import save_setup
 from carpus.core.records.log import is_patient_erased
+from carpus.core.records.patients import save_setup
 from carpus.core.records.recordings import (
     copy_session,
     import_spooled,

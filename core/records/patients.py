@@ -1,4 +1,4 @@
-"""Patients, their manual measurements and goals; names are stored here and nowhere else."""
+"""Patients, their manual measurements, goals and last set-up; names are stored here and nowhere else."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import random
 import time
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import fields
 from datetime import UTC, date, datetime
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -16,16 +17,19 @@ from sqlalchemy import ColumnElement, Row, select
 
 from carpus.core.measures.manual_measurements import MEASURES, ManualValue
 from carpus.core.model.dates import parse_day
-from carpus.core.model.hand.exercises import find_exercise
+from carpus.core.model.errors import CarpusFault, SessionUnreadable
+from carpus.core.model.hand.exercises import find_exercise, get_exercise
 from carpus.core.model.hand.forearm_rotation import from_clinical_targets_deg, to_clinical_targets_deg
-from carpus.core.model.names import fold_name
+from carpus.core.model.names import fold_name, normalize_name
+from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Side
 from carpus.core.records.changes import RowChange, delete_row, insert_row, update_row, upsert_row
+from carpus.core.records.clinic_records import read_sets
 from carpus.core.records.log import AuditAction
-from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MANUAL_MEASUREMENT, PATIENT
-from carpus.core.records.session_setup import PRACTICE_PATIENT
+from carpus.core.records.schema import DIAGNOSIS, GOAL, HOME_PLAN, MANUAL_MEASUREMENT, PATIENT, SET_UP
+from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup, start_set
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import HomePlan, Patient, parse_time, valid_choice
+from carpus.core.records.values import HomePlan, Patient, parse_time
 from carpus.core.results.progress import Goals
 
 WORDS = (
@@ -87,10 +91,10 @@ class Patients:
         return [_patient_from_row(row) for row in self._store.rows(query.order_by(*order).limit(limit))]
 
     def get(self, patient_id: str) -> Patient:
-        """Return the patient with this id. Raises KeyError if there is none."""
+        """Return the patient with this id. Raises :class:`SessionUnreadable` if there is none."""
         row = self._store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
         if row is None:
-            raise KeyError(patient_id)
+            raise SessionUnreadable(patient_id, phrase("not in the patient list"))
         return _patient_from_row(row)
 
     def has(self, patient_id: str) -> bool:
@@ -183,6 +187,8 @@ def _column_types(kind: Any) -> ColumnTypes:
 
 
 _PATIENT, _HOME_PLAN = _column_types(Patient), _column_types(HomePlan)
+NORMALIZED_FIELDS = ("pseudonym", "name", "record_number", "diagnosis")
+"""Texts that identify, stored in one form."""
 SEARCHED_FIELDS = ("pseudonym", "name", "record_number", "birth_day", "diagnosis", "note")
 
 
@@ -203,7 +209,7 @@ def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
     for name, hint in types.items():
         origin: Any = get_origin(hint)
         if origin is Literal:
-            read[name] = valid_choice(get_args(hint), read[name])
+            read[name] = read[name] if read[name] in get_args(hint) else get_args(hint)[0]
         elif origin is tuple:
             read[name] = tuple(read[name].split("\n"))
         elif hint not in (str, int):  # a day, which may be missing where None may stand for it
@@ -213,10 +219,10 @@ def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
 
 def patient_columns(patient: Patient) -> dict[str, Any]:
     """Return a patient's columns. Raises :class:`NameUnsuited`."""
-    kept = patient.with_normalized_names()
-    columns = _to_columns(kept, _PATIENT)
+    columns = _to_columns(patient, _PATIENT)
+    columns |= {name: normalize_name(columns[name]) for name in NORMALIZED_FIELDS}
     search = " ".join(columns[name] for name in SEARCHED_FIELDS)
-    return columns | {"pseudonym_key": fold_name(kept.pseudonym), "search": fold_name(search)}
+    return columns | {"pseudonym_key": fold_name(columns["pseudonym"]), "search": fold_name(search)}
 
 
 def _patient_from_row(row: Row[Any]) -> Patient:
@@ -298,3 +304,46 @@ def nan_to_null(value: float) -> float | None:
 def null_to_nan(value: float | None) -> float:
     """Convert NULL to NaN."""
     return math.nan if value is None else value
+
+
+def read_last_setup(store: Store, patient_id: str) -> SessionSetup | None:
+    """Return a patient's last set-up, None before the first; of a set its first part."""
+    row = store.row(select(SET_UP).where(SET_UP.c.id == patient_id))
+    if row is None:
+        return None
+    exercise = get_exercise(row.exercise)
+    last = SessionSetup(
+        patient_id,
+        Patients(store).get(patient_id).pseudonym,
+        row.side,
+        exercise,
+        row.repetitions,
+        *to_clinical_targets_deg((null_to_nan(row.positive_deg), null_to_nan(row.negative_deg)), exercise),
+        bool(row.keep_pictures),
+        bool(row.ends_free),
+        row.discs,
+        bool(row.for_child),
+    )
+    with suppress(CarpusFault):
+        for one in read_sets(store) if row.set_id else ():
+            if one.set_id == row.set_id and one.protocol_name == last.protocol.name:
+                return start_set(one, last, read_goals(store, patient_id))
+    return last
+
+
+def save_setup(store: Store, set_up: SessionSetup) -> None:
+    """Save a set-up and its goal."""
+    targets = set_up.target_positive_deg, set_up.target_negative_deg
+    stored = from_clinical_targets_deg(targets, set_up.exercise)
+    row = upsert_row(
+        SET_UP, set_up.patient_id, patient_id=set_up.patient_id, side=set_up.side, exercise=set_up.exercise.id,
+        discs=set_up.protocol_name, set_id=set_up.set_run.set_id if set_up.set_run is not None else "",
+        repetitions=set_up.repetitions, keep_pictures=int(set_up.stores_frames), ends_free=int(set_up.is_dip_free),
+        for_child=int(set_up.for_child), positive_deg=nan_to_null(stored[0]), negative_deg=nan_to_null(stored[1]),
+    )  # fmt: skip
+    of_goal = (
+        [goal_change(set_up.patient_id, set_up.exercise.id, set_up.side, *targets)]
+        if set_up.exercise.has_repetitions
+        else []
+    )
+    store.apply([row, *of_goal])

@@ -10,8 +10,6 @@ from datetime import date, datetime
 
 from sqlalchemy import func, select
 
-from carpus.core.model.errors import SessionUnreadable
-from carpus.core.model.phrase import phrase
 from carpus.core.records import erasure
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.data_folder import DataFolder
@@ -95,18 +93,10 @@ class RecordRetention:
         self._library, self._store = library, library.store
 
     def plan_session(self, session_id: str) -> ErasurePlan:
-        """Plan the erasure of a session. Raises :class:`SessionUnreadable` if there is none."""
-        try:
-            return erasure.plan_session(self._store, session_id)
-        except KeyError:
-            raise SessionUnreadable(session_id, phrase("not in the patient list")) from None
+        return erasure.plan_session(self._store, session_id)
 
     def plan_patient(self, patient_id: str) -> ErasurePlan:
-        """Plan the erasure of a patient. Raises :class:`SessionUnreadable` if there is none."""
-        try:
-            return erasure.plan_patient(self._store, patient_id)
-        except KeyError:
-            raise SessionUnreadable(patient_id, phrase("not in the patient list")) from None
+        return erasure.plan_patient(self._store, patient_id)
 
     def erase(self, plan: ErasurePlan) -> int:
         """Erase as planned. Raises what :func:`erasure.erase` does."""

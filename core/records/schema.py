@@ -119,34 +119,13 @@ AUDIT_LOG = _table(
 )
 """Insert only. ``subject``: fingerprint of a patient's or session's id."""
 
+TABLES = dict(METADATA.tables)
+"""Tables of what people write, ordered so that rows come after those they refer to."""
 FILE_STATE = Table(
     "seen", METADATA, Column("path", Text, primary_key=True), Column("size", _LONG, nullable=False),
     Column("changed_ns", _LONG, nullable=False), Column("reason", Text, nullable=False), sqlite_strict=True,
 )  # fmt: skip
 """Files as last read; ``reason`` why one is not a session."""
-
-TABLES = {
-    table.name: table
-    for table in (
-        PATIENT,
-        SESSION,
-        COMMENT,
-        CORRECTION,
-        MANUAL_MEASUREMENT,
-        SET_UP,
-        GOAL,
-        HOME_PLAN,
-        EXERCISE_SET,
-        REPORT_FORM,
-        THERAPIST,
-        RECIPIENT,
-        DIAGNOSIS,
-        OUTPUT_FILE,
-        BACKUP,
-        AUDIT_LOG,
-    )
-}
-"""Tables of what people write, ordered so that rows come after those they refer to."""
 
 
 def rename_former_columns(table: Table, values: Mapping[str, Any]) -> dict[str, Any]:

@@ -50,20 +50,6 @@ class FileState:
         return (self.size, self.modified_ns) == (other.size, other.modified_ns)
 
 
-def find_session_files(folder: Path) -> dict[Path, FileState]:
-    """Return the state of every file below a folder that is named like a session."""
-    found: dict[Path, FileState] = {}
-    for path in sorted(iter_paths(folder, ".h5")):
-        try:
-            state = path.lstat()
-        except OSError:
-            continue  # gone meanwhile
-        found[path] = FileState(
-            state.st_size, state.st_mtime_ns, "" if stat.S_ISREG(state.st_mode) else "not a plain file"
-        )
-    return found
-
-
 def read_file_states(store: Store) -> dict[str, FileState]:
     """Return the stored states by path."""
     return {str(row.path): FileState(row.size, row.changed_ns, row.reason) for row in store.rows(select(FILE_STATE))}
@@ -148,11 +134,11 @@ class SessionList:
         return [self._entry_from_row(row) for row in self._store.rows(query.order_by(*order))]
 
     def get(self, session_id: str) -> SessionEntry:
-        """Return the session with this id. Raises KeyError if there is none."""
+        """Return the session with this id. Raises :class:`SessionUnreadable` if there is none."""
         return self._entry_from_row(self._row(session_id))
 
     def owner_id(self, session_id: str) -> str:
-        """Return the session's patient, empty for none. Raises KeyError without such a session."""
+        """Return the session's patient, empty for none. Raises :class:`SessionUnreadable` without such a session."""
         return self._row(session_id).patient_id or ""
 
     def last_patient_id(self) -> str:
@@ -164,7 +150,7 @@ class SessionList:
     def _row(self, session_id: str) -> Row[Any]:
         row = self._store.row(select(SESSION).where(SESSION.c.id == session_id, SESSION.c.erasing == 0))
         if row is None:
-            raise KeyError(session_id)
+            raise errors.SessionUnreadable(session_id, phrase("not in the patient list"))
         return row
 
     def recording_versions(self, recording_id: str) -> list[SessionEntry]:
@@ -175,7 +161,7 @@ class SessionList:
         ]
 
     def result_versions(self, session_id: str) -> list[SessionEntry]:
-        """Return all results of a session's recording, oldest first. Raises KeyError."""
+        """Return all results of a session's recording, oldest first. Raises :class:`SessionUnreadable`."""
         return self.recording_versions(self._row(session_id).recording_id)
 
     def patient_folder(self, patient_id: str) -> Path:
@@ -448,11 +434,17 @@ class SessionFileScanner:
     def _current_files(self) -> tuple[dict[str, FileState], list[str]]:
         """Return files named like sessions that are not being erased, and names that cannot be stored."""
         going = {str(row[0]) for row in self._store.rows(select(SESSION.c.path).where(SESSION.c.erasing == 1))}
-        found = {
-            path.relative_to(self._folder).as_posix(): look for path, look in find_session_files(self._folder).items()
-        }
-        there = {path: look for path, look in found.items() if path not in going and is_storable_path(path)}
-        return there, [path for path in found if not is_storable_path(path)]
+        there, nameless = dict[str, FileState](), list[str]()
+        for file in sorted(iter_paths(self._folder, ".h5")):
+            path = file.relative_to(self._folder).as_posix()
+            if not is_storable_path(path):
+                nameless.append(path)
+            elif path not in going:
+                with suppress(OSError):  # gone meanwhile
+                    state = file.lstat()
+                    reason = "" if stat.S_ISREG(state.st_mode) else "not a plain file"
+                    there[path] = FileState(state.st_size, state.st_mtime_ns, reason)
+        return there, nameless
 
     def filter_new_faults(self, faults: Iterable[CarpusFault]) -> list[CarpusFault]:
         """Return faults whose file is new or changed, and store its state."""

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import KW_ONLY, dataclass, replace
+from collections.abc import Callable, Iterable
+from dataclasses import KW_ONLY, dataclass
 from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Literal, TypeVar
 
 from carpus.core.model.dates import is_moment
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
-from carpus.core.model.names import normalize_name
 from carpus.core.model.types import Side
 from carpus.core.session.values import SessionOutline
 
@@ -53,16 +52,6 @@ class Patient:
     def __post_init__(self) -> None:
         if not self.pseudonym.strip():
             raise ValueError("no pseudonym")
-
-    def with_normalized_names(self) -> Patient:
-        """Return the patient with names in their stored form. Raises :class:`NameUnsuited`."""
-        return replace(
-            self,
-            pseudonym=normalize_name(self.pseudonym),
-            name=normalize_name(self.name),
-            record_number=normalize_name(self.record_number),
-            diagnosis=normalize_name(self.diagnosis),
-        )
 
 
 MAX_INITIALS = 12
@@ -132,11 +121,6 @@ def read_or_default(read: Callable[[], T], default: U) -> T | U:
         return read()
     except ServerUnavailable:
         return default
-
-
-def valid_choice(choices: Sequence[T], stored: T) -> T:
-    """Return the stored value if it is a choice, else the first choice."""
-    return stored if stored in choices else choices[0]
 
 
 def parse_time(stored: str, stamp_s: float) -> datetime:

@@ -29,6 +29,7 @@ from carpus.core.model.types import (
     SurfaceSamples,
     TrackedFrame,
 )
+from carpus.core.platform.provenance import parameter_section
 from carpus.core.platform.version import __version__
 
 IntArray = NDArray[np.integer]
@@ -87,12 +88,12 @@ class SessionHeader:
     @property
     def is_simulated(self) -> bool:
         """Whether the images show a simulated hand."""
-        return self._read_section("source").get(SIMULATED) == "yes"
+        return parameter_section(self.parameters, "source").get(SIMULATED) == "yes"
 
     @property
     def set_up(self) -> Mapping[str, Any]:
         """Targets and repetitions of the exercise; empty if not stored."""
-        return self._read_section(SET_UP)
+        return parameter_section(self.parameters, SET_UP)
 
     @property
     def targets_deg(self) -> tuple[float, float]:
@@ -105,11 +106,6 @@ class SessionHeader:
             for value in values
         )
         return positive, negative
-
-    def _read_section(self, name: str) -> Mapping[str, Any]:
-        parameters = json.loads(self.parameters)
-        part = parameters.get(name) if isinstance(parameters, dict) else None
-        return part if isinstance(part, dict) else {}
 
 
 def new_header(

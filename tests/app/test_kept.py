@@ -18,8 +18,8 @@ from carpus.app.session_commands import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.model.errors import OutputNotWritable
 from carpus.core.records.data_folder import DataFolder
-from carpus.core.records.exercise_sets import read_last_setup
 from carpus.core.records.log import read_log
+from carpus.core.records.patients import read_last_setup
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store

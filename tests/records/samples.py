@@ -21,9 +21,8 @@ from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import SIMULATED
 from carpus.core.records import clinic_records, patients, session_records
 from carpus.core.records.data_folder import DataFolder
-from carpus.core.records.exercise_sets import save_setup
 from carpus.core.records.log import AuditLogWriter
-from carpus.core.records.patients import Patients
+from carpus.core.records.patients import Patients, save_setup
 from carpus.core.records.session_list import SessionFileScanner, SessionList
 from carpus.core.records.session_setup import SessionSetup
 from carpus.core.records.store import Store

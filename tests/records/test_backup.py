@@ -291,7 +291,7 @@ def test_backup_from_json_newer_or_foreign_is_refused(data: Path, place: Path) -
         {"made": "2026-11-20T18:00:00"},
         {"lacking": 1e999},
         {"made": "9999-12-31T23:59:59-23:59"},
-        {"sessions": True},
+        {"lacking": True},
         {"files": [["a", "0" * 64, -1, 1]]},
         {"files": [["a", "0" * 64, 1, 1 << 80]]},
         {"files": [["a", "0" * 64, 1, 1], ["a", "1" * 64, 1, 1]]},

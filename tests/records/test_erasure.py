@@ -24,6 +24,7 @@ from carpus.core.model.errors import (
     FolderMissing,
     OutputNotWritable,
     SessionChanged,
+    SessionUnreadable,
 )
 from carpus.core.records import clinic_records, database, erasure, session_records
 from carpus.core.records.backup import create_backup
@@ -142,7 +143,7 @@ def test_erase_patient_keeps_sessions_moved_to_another(folder: Path, house: Hous
     assert traces(folder, "Linden", "Erika Mustermann", linden) == []
     assert house.index.get(moved).path.exists()
     assert house.index.get(moved).path.with_suffix(".carpusraw").exists()
-    with pytest.raises(KeyError):
+    with pytest.raises(SessionUnreadable):
         house.index.get(own)
 
 

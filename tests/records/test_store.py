@@ -28,12 +28,13 @@ from carpus.core.model.errors import (
     PatientListRebuilt,
     PatientListVersionUnknown,
     PseudonymTaken,
+    SessionUnreadable,
 )
 from carpus.core.model.names import normalize_name
 from carpus.core.records import clinic_records, patients, schema, session_records
 from carpus.core.records.changes import insert_row
+from carpus.core.records.clinic_records import read_sets
 from carpus.core.records.database import STORE_FILE, move_aside
-from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import WORDS, goal_change, patient_columns, read_goals, suggest_pseudonym
 from carpus.core.records.session_setup import PRACTICE_PATIENT
@@ -104,9 +105,9 @@ def test_pseudonym_of_another_patient_is_refused(tmp_path: Path) -> None:
         assert house.patients.id_of_pseudonym("LINDEN 42") == linden
         with pytest.raises(ConcurrentChange):
             house.patients.change(Patient("Oak 11", "left", patient_id="nobody"))
-        with pytest.raises(KeyError):
+        with pytest.raises(SessionUnreadable):
             house.patients.get("nobody")
-        with pytest.raises(KeyError):
+        with pytest.raises(SessionUnreadable):
             house.index.get("nothing")
 
 

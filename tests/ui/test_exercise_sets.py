@@ -15,8 +15,9 @@ from carpus.core.model.errors import ConcurrentChange
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records import patients
 from carpus.core.records.changes import delete_row
+from carpus.core.records.clinic_records import read_sets, save_sets
 from carpus.core.records.data_folder import DataFolder
-from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets, save_setup
+from carpus.core.records.patients import read_last_setup, save_setup
 from carpus.core.records.schema import EXERCISE_SET, GOAL, PATIENT
 from carpus.core.records.session_setup import DEFAULT_SETS, ExerciseSet, SetPart, next_part, start_set
 from carpus.core.records.store import Store

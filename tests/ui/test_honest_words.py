@@ -21,8 +21,8 @@ from carpus.core.model.errors import SessionUnreadable, SettingsInvalid
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import TrackedFrame
+from carpus.core.records.clinic_records import LIMITS_FILE, save_limits
 from carpus.core.records.data_folder import DataFolder
-from carpus.core.records.limits_file import LIMITS_FILE, save_limits
 from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.results.progress import compute_progress
 from carpus.core.results.session_results import SessionResults

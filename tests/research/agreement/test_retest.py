@@ -24,7 +24,7 @@ from carpus.core.measures.change_limits import ErrorLimits, MeasuredLimit, Retes
 from carpus.core.model import so3
 from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.types import TrackStatus
-from carpus.core.records.limits_file import LIMITS_FILE, read_limits, save_limits
+from carpus.core.records.clinic_records import LIMITS_FILE, read_limits, save_limits
 from carpus.core.research.agreement.retest import analyse_retests, compute_retest
 from carpus.core.results.progress import compare_ranges
 from carpus.core.results.session_results import SessionResults, compute_session_results

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDialog, QFileDialog, QPlainTextEdit, QWidget
 from carpus.core.measures.change_limits import RetestStudy
 from carpus.core.model.errors import CarpusFault
 from carpus.core.platform.about import licence_texts
-from carpus.core.records.limits_file import save_limits
+from carpus.core.records.clinic_records import save_limits
 from carpus.core.research.agreement.retest import RetestAnalysis, analyse_retests
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit.background import Background

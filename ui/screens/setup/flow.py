@@ -10,8 +10,8 @@ from PySide6.QtCore import Qt
 from carpus.core.model.errors import CarpusFault, ServerUnavailable
 from carpus.core.model.types import Side
 from carpus.core.pipeline.recording import read_free_bytes
-from carpus.core.records.exercise_sets import read_last_setup, read_sets, save_sets
-from carpus.core.records.patients import read_goals
+from carpus.core.records.clinic_records import read_sets, save_sets
+from carpus.core.records.patients import read_goals, read_last_setup
 from carpus.core.records.session_setup import (
     DEFAULT_SETS,
     PRACTICE_PATIENT,
