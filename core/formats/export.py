@@ -39,7 +39,7 @@ FORMATS = {
         "tables of angles, joints, markers, events and measures",
     ),
     "json": Format("json_measures", "measures with provenance"),
-    "c3d": Format("c3d_write", "markers for motion capture programs"),
+    "c3d": Format("c3d", "markers for motion capture programs"),
     "trc": Format("trc", "markers for OpenSim"),
     "mot": Format("mot", "angles for OpenSim"),
     "bids": Format("bids_motion", "a BIDS-Motion data set"),

@@ -1,19 +1,24 @@
-"""MOT for OpenSim: wrist and joint angles in degrees at uniform times; unknown is NaN.
+"""MOT of OpenSim: angles of a session, and columns of other programs (MOT or STO).
 
-``NAME.mot`` has the filter's result, ``NAME.smoothed.mot`` the smoother's. Columns end with the side as in OpenSim:
-``wrist_flexion_r``, ``mcp2_flexion_l``.
+Written are wrist and joint angles in degrees at uniform times; unknown is NaN. ``NAME.mot`` has the filter's result,
+``NAME.smoothed.mot`` the smoother's. Columns end with the side as in OpenSim: ``wrist_flexion_r``, ``mcp2_flexion_l``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from carpus.core.formats.export_item import ANGLE_DEFINITIONS, ExportItem
-from carpus.core.formats.output_files import open_new_file, write_new_json
+from carpus.core.formats.output_files import write_new_json, write_new_text
+from carpus.core.formats.table_read import check_times, parse_cell, read_text
+from carpus.core.model.errors import ReferenceUnreadable
 from carpus.core.model.hand.protocols import WRIST_ANGLES
+from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray
 from carpus.core.results.measures_table import positive_direction
 from carpus.core.session.values import Motion, Session
 
@@ -24,11 +29,8 @@ def write(take: ExportItem, folder: Path) -> list[Path]:
     out = []
     for motion, name in ((session.motion, take.name), (session.smoothed, f"{take.name}.smoothed")):
         if motion is not None:
-            path = folder / f"{name}.mot"
-            with open_new_file(path) as file:
-                for line in _lines(take, motion, name):
-                    file.write(line.encode() + b"\n")
-            out.append(path)
+            lines = (f"{line}\n" for line in _lines(take, motion, name))
+            out.append(write_new_text(folder / f"{name}.mot", "".join(lines)))
     about = {
         "columns": column_names(session),
         "angles": ANGLE_DEFINITIONS,
@@ -70,10 +72,39 @@ def _lines(take: ExportItem, motion: Motion, name: str) -> Iterator[str]:
     yield ""
     yield "endheader"
     yield "\t".join(("time", *labels))
-    angles = np.degrees(np.column_stack([even.interpolate(values, is_angular=True) for values in _angles(motion)]))
+    both = (motion.angles_rad, motion.joint_angles_rad)
+    angles = np.degrees(np.column_stack([even.interpolate(values, is_angular=True) for values in both]))
     for time_s, row in zip(even.elapsed_s.tolist(), angles.tolist(), strict=True):
         yield f"{time_s:.6f}\t" + "\t".join("NaN" if value != value else f"{value:.6f}" for value in row)
 
 
-def _angles(motion: Motion) -> tuple[np.ndarray, np.ndarray]:
-    return motion.angles_rad, motion.joint_angles_rad
+@dataclass(frozen=True, slots=True)
+class TimeTable:
+    """Named columns over ``time_s`` (K,), NaN for none; ``in_degrees`` is None if the file does not say."""
+
+    time_s: FloatArray
+    values: dict[str, FloatArray]
+    in_degrees: bool | None
+
+
+def read_mot(path: Path) -> TimeTable:
+    """Read the columns of a MOT or STO file. Raises :class:`ReferenceUnreadable`."""
+    lines = read_text(path).splitlines()
+    ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
+    if not ends or ends[0] + 1 >= len(lines):
+        raise ReferenceUnreadable(path, phrase("not MOT: the header has no end"))
+    header = dict(line.lower().replace(" ", "").rstrip(",").split("=", 1) for line in lines[: ends[0]] if "=" in line)
+    tab = "," if "," in lines[ends[0] + 1] else None  # None: any white space
+    names = lines[ends[0] + 1].split(tab)
+    rows = [line.split(tab) for line in lines[ends[0] + 2 :] if line.strip(", ")]
+    try:
+        table = np.array([[parse_cell(cell) for cell in row] for row in rows])
+    except ValueError as cause:
+        raise ReferenceUnreadable(path, phrase("rows of different length, or not numbers")) from cause
+    if table.ndim != 2 or table.shape[1] != len(names) or names[0].lower() != "time":
+        raise ReferenceUnreadable(path, phrase("columns do not match their names"))
+    columns = {name: table[:, k] for k, name in enumerate(names) if k}
+    in_degrees = header.get("indegrees")
+    return TimeTable(
+        check_times(table[:, 0], path), columns, None if in_degrees is None else in_degrees.startswith("y")
+    )

@@ -12,8 +12,11 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
+import numpy as np
+
 from carpus.core.model.errors import ReferenceUnreadable
 from carpus.core.model.phrase import phrase
+from carpus.core.model.types import FloatArray
 
 MAX_BYTES = 1 << 30
 MAX_HEADER_LINE = 200
@@ -147,6 +150,20 @@ def parse_number(text: str | None) -> float:
 def is_non_numeric(text: str) -> bool:
     """Return whether a cell holds something that is neither a number nor a mark for none."""
     return text.strip().lower() not in _EMPTY_CELLS and not math.isfinite(parse_number(text))
+
+
+def parse_cell(cell: str) -> float:
+    """Parse a number, NaN for an empty cell. Raises ValueError for anything else."""
+    if is_non_numeric(cell):
+        raise ValueError(f"“{cell[:20]}” is no number")
+    return parse_number(cell)
+
+
+def check_times(time_s: FloatArray, path: Path) -> FloatArray:
+    """Return times (K,) that increase. Raises :class:`ReferenceUnreadable` for others."""
+    if not np.isfinite(time_s).all() or (np.diff(time_s) <= 0.0).any():
+        raise ReferenceUnreadable(path, phrase("times out of order"))
+    return time_s
 
 
 def parse_times(cells: Sequence[str]) -> tuple[list[float], bool]:

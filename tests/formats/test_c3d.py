@@ -12,8 +12,7 @@ import ezc3d
 import numpy as np
 import pytest
 
-from carpus.core.formats import c3d_write
-from carpus.core.formats.c3d_read import read_c3d
+from carpus.core.formats.c3d import read_c3d, write
 from carpus.core.formats.export_item import ExportItem, joint_centres_cam_m
 from carpus.core.model.errors import ReferenceUnreadable
 from carpus.core.model.types import TrackStatus
@@ -36,7 +35,7 @@ def by_c3d(path: Path) -> tuple[list[str], np.ndarray, float]:
 def test_c3d_positions_and_residuals_round_trip(make: object, tmp_path: Path) -> None:
     take: ExportItem = make(tmp_path)  # type: ignore[operator]
     session = take.session
-    (path,) = c3d_write.write(take, tmp_path / "out")
+    (path,) = write(take, tmp_path / "out")
     labels, points, rate = by_c3d(path)
     names = list(session.header.protocol.markers)
     count = len(names)
@@ -58,7 +57,7 @@ def test_c3d_positions_and_residuals_round_trip(make: object, tmp_path: Path) ->
 
 def test_c3d_second_reader_agrees(tmp_path: Path) -> None:
     take = wrist_take(tmp_path)
-    (path,) = c3d_write.write(take, tmp_path / "out")
+    (path,) = write(take, tmp_path / "out")
     read = ezc3d.c3d(str(path))
     parameters, points = read["parameters"], read["data"]["points"]
     _, other, _ = by_c3d(path)
@@ -79,7 +78,7 @@ def test_c3d_second_reader_agrees(tmp_path: Path) -> None:
 
 def test_c3d_repetitions_are_events(tmp_path: Path) -> None:
     take = build_take(read_session(stopping(tmp_path)))
-    (path,) = c3d_write.write(take, tmp_path / "out")
+    (path,) = write(take, tmp_path / "out")
     event = ezc3d.c3d(str(path))["parameters"]["EVENT"]
     said = list(zip(event["LABELS"]["value"], event["DESCRIPTIONS"]["value"], event["TIMES"]["value"][1], strict=True))
     wanted = []
@@ -117,7 +116,7 @@ def test_c3d_one_hour_keeps_last_frame(tmp_path: Path) -> None:
         events=session.events[:1] * (300 - times),
     )
     take = ExportItem(long, build_take(session).results, "long", build_take(session).provenance)
-    (path,) = c3d_write.write(take, tmp_path / "out")
+    (path,) = write(take, tmp_path / "out")
     with path.open("rb") as file:
         reader = c3d.Reader(file)
         assert reader.frame_count == count
@@ -130,7 +129,7 @@ def test_c3d_one_hour_keeps_last_frame(tmp_path: Path) -> None:
 
 def test_c3d_without_frames_is_written(tmp_path: Path) -> None:
     take = build_take(read_session(store_session(tmp_path, frames=0)))
-    (path,) = c3d_write.write(take, tmp_path / "out")
+    (path,) = write(take, tmp_path / "out")
     assert path.stat().st_size % 512 == 0
 
 

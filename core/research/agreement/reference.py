@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.c3d_read import read_c3d
-from carpus.core.formats.opensim_read import TimeTable, read_mot, read_trc
+from carpus.core.formats.c3d import read_c3d
+from carpus.core.formats.mot import TimeTable, read_mot
 from carpus.core.formats.table_read import TextTable, is_non_numeric, parse_number, parse_times, read_table, split_unit
+from carpus.core.formats.trc import read_trc
 from carpus.core.model.errors import ReferenceUnreadable
 from carpus.core.model.hand.forearm_rotation import pronosupination_from_palm_down
 from carpus.core.model.hand.protocols import SITES, WRIST_ANGLES, joint_angle_names

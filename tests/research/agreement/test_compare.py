@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.formats import c3d_write, mot, trc
+from carpus.core.formats import c3d, mot, trc
 from carpus.core.model import so3
 from carpus.core.model.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.model.hand.protocols import WRIST_ANGLES
@@ -124,7 +124,7 @@ def test_compare_points_are_aligned_rigidly(session: Session, kind: str, tmp_pat
     theirs = replace(
         rigid, markers=replace(session.markers, position_cam_m=elsewhere), motion=session.motion, path=tmp_path / "s.h5"
     )
-    writer = c3d_write if kind == "c3d" else trc
+    writer = c3d if kind == "c3d" else trc
     writer.write(build_take(theirs, "s"), tmp_path)
     found = compare_session(rigid, read_reference(tmp_path / f"s.{kind}"))
     assert found.alignment.residual_m < 5e-4
