@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
-    from carpus.core.results.measures_table import MeasureRow
+    from carpus.core.formats.measures_table import MeasureRow
     from carpus.core.results.session_results import SessionResults
 
 Estimate = Literal["best", "filter", "smoother"]
@@ -115,7 +115,7 @@ class OpenedSession(Session):
         """
         xarray = _import_extra("xarray")
         from carpus.core.formats.export_item import is_measured
-        from carpus.core.results.measures_table import positive_direction
+        from carpus.core.formats.measures_table import positive_direction
 
         arrays: dict[str, Any] = {"status": ("time", self._status_names(), {"long_name": "tracking status"})}
         for name, value, sd in zip(self.angle_names, *(each.T for each in self.angles_deg(estimate)), strict=True):
@@ -190,7 +190,7 @@ class OpenedSession(Session):
 
         Repetitions that were excluded or moved in the review count as they are stored beside the file.
         """
-        from carpus.core.results.measures_table import build_measure_rows
+        from carpus.core.formats.measures_table import build_measure_rows
 
         return build_measure_rows(self._results(), self.path.stem)
 
@@ -245,7 +245,7 @@ def open_sessions(folder: str | Path | Sequence[str | Path]) -> DataFrame:
         One row for each session and measure: the columns of :class:`MeasureRow`, with ``key`` and ``label`` of the
         measure; ``recorded`` is a time.
     """
-    from carpus.core.results.measures_table import build_measure_rows
+    from carpus.core.formats.measures_table import build_measure_rows
     from carpus.core.results.progress import select_latest_versions
 
     given = [folder] if isinstance(folder, (str, Path)) else list(folder)
@@ -264,7 +264,7 @@ def open_sessions(folder: str | Path | Sequence[str | Path]) -> DataFrame:
 
 def _measures_frame(rows: Sequence[MeasureRow]) -> DataFrame:
     pandas = _import_extra("pandas")
-    from carpus.core.results.measures_table import MeasureRow
+    from carpus.core.formats.measures_table import MeasureRow
 
     records = [asdict(row) | {"key": row.key, "label": row.label} for row in rows]
     columns = [*(field.name for field in fields(MeasureRow)), "key", "label"]

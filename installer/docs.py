@@ -38,7 +38,7 @@ REFERENCE = {
     ),
     "carpus.core.session.values": ("Session", "SessionHeader", "Motion", "MarkerSeries", "QualitySeries", "Event",
                                    "Repetitions", "RepetitionRow"),
-    "carpus.core.results.measures_table": ("MeasureRow",),
+    "carpus.core.formats.measures_table": ("MeasureRow",),
     "carpus.core.simulation.spec": ("RecordingSpec",),
     "carpus.core.simulation.truth": ("Truth",),
     "carpus.core.calibration.result": ("Calibration", "Clicks"),

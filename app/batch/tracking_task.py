@@ -16,6 +16,7 @@ from carpus.app.sources import TrackingInput, open_recording, warn_assumed_intri
 from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import RecordingDate
+from carpus.core.formats.measures_table import MeasureRow, build_measure_rows
 from carpus.core.model.errors import CarpusFault, OutputExists
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.types import TrackStatus
@@ -24,7 +25,6 @@ from carpus.core.pipeline.track import TrackSettings, retrack_session, track_rec
 from carpus.core.platform.durable import write_fault
 from carpus.core.platform.version import __version__
 from carpus.core.research.papers.track_settings import settings_from_json
-from carpus.core.results.measures_table import MeasureRow, build_measure_rows
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.results.session_summary import exercise_warnings
 from carpus.core.session.reader import read_session

@@ -17,7 +17,7 @@ from carpus.core.model.names import describe_known_names, fold_name
 
 if TYPE_CHECKING:
     from carpus.app.settings import Settings
-    from carpus.core.results.measures_table import MeasureRow
+    from carpus.core.formats.measures_table import MeasureRow
     from carpus.core.results.session_results import SessionResults
 
 EXAMPLE = """carpus progress "Fern 12"
@@ -51,7 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows, write_measures
+    from carpus.core.formats.measures_table import MEASURES_HEADER, to_csv_rows, write_measures
 
     for path in arguments.output:
         if path.exists():
@@ -85,8 +85,8 @@ def read_measures(
     subject: str, places: list[Path], settings: Settings
 ) -> tuple[list[SessionResults], list[MeasureRow]]:
     """Return a patient's sessions, each in its newest version, and the rows of all their measures."""
+    from carpus.core.formats.measures_table import build_measure_rows
     from carpus.core.records.clinic_records import read_limits
-    from carpus.core.results.measures_table import build_measure_rows
     from carpus.core.results.progress import select_latest_versions
 
     found = _find_figures(subject, places, read_limits(settings.data_folder))

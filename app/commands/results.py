@@ -14,7 +14,7 @@ from carpus.core.model.errors import OutputExists
 from carpus.core.model.rounding import format_rounded
 
 if TYPE_CHECKING:
-    from carpus.core.results.measures_table import MeasureRow
+    from carpus.core.formats.measures_table import MeasureRow
 
 EXAMPLE = """carpus results sessions
 carpus results sessions --output study.csv"""
@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise OutputExists(arguments.output)
     from carpus.app.commands.progress import ALL_PATIENTS, read_measures
     from carpus.app.settings import load_settings
-    from carpus.core.formats.measures_files import write_measures
+    from carpus.core.formats.measures_table import write_measures
 
     _, rows = read_measures(ALL_PATIENTS, arguments.sessions, load_settings())
     if arguments.json:

@@ -16,7 +16,7 @@ from carpus.app.batch.worker_pool import TIME_LIMIT_S, count_cores, run_tasks
 from carpus.app.command_line import print_message, print_table, progress_bar, report_usage_error
 from carpus.app.sources import SESSION_SUFFIX, TrackingInput, find_clicks_file, plan_inputs
 from carpus.core.calibration.clicks_file import read_clicks
-from carpus.core.formats.measures_files import MEASURES_HEADER, check_measures_path, open_measures_file
+from carpus.core.formats.measures_table import MEASURES_HEADER, check_measures_path, open_measures_file
 from carpus.core.formats.output_files import format_cell, write_new_table
 from carpus.core.formats.table_read import read_table
 from carpus.core.model.errors import CarpusFault, NameUnsuited, OutputExists, RecordingMissing

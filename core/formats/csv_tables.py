@@ -23,7 +23,13 @@ from carpus.core.formats.export_item import (
     format_number,
     is_measured,
 )
-from carpus.core.formats.measures_files import MEASURES_HEADER, to_csv_rows
+from carpus.core.formats.measures_table import (
+    MEASURE_COLUMNS,
+    MEASURES_HEADER,
+    build_measure_rows,
+    positive_direction,
+    to_csv_rows,
+)
 from carpus.core.formats.output_files import MACHINE_DIALECT, format_cell, write_new_json, write_new_table
 from carpus.core.measures.manual_measurements import COLUMNS, to_rows
 from carpus.core.model.hand.exercises import PRONOSUPINATION
@@ -34,7 +40,6 @@ from carpus.core.model.hand.forearm_rotation import (
 )
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.types import TrackStatus
-from carpus.core.results.measures_table import MEASURE_COLUMNS, build_measure_rows, positive_direction
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.repetition_rows import trained_angle_name
 from carpus.core.results.session_results import SessionResults

@@ -8,10 +8,10 @@ from typing import Any
 
 from carpus.core.formats.csv_tables import build_repetition_table
 from carpus.core.formats.export_item import ANGLE_DEFINITIONS, ExportItem
+from carpus.core.formats.measures_table import build_measure_rows
 from carpus.core.formats.output_files import write_new_json
 from carpus.core.measures.manual_measurements import COLUMNS, to_rows
 from carpus.core.model.hand.exercises import DIRECTIONS, Movement
-from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.norms import Norm, total_norm, wrist_norm
 from carpus.core.results.session_results import SessionResults
 

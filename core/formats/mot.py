@@ -13,13 +13,13 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.formats.export_item import ANGLE_DEFINITIONS, ExportItem
+from carpus.core.formats.measures_table import positive_direction
 from carpus.core.formats.output_files import write_new_json, write_new_text
 from carpus.core.formats.table_read import check_times, parse_cell, read_text
 from carpus.core.model.errors import ReferenceUnreadable
 from carpus.core.model.hand.protocols import WRIST_ANGLES
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import FloatArray
-from carpus.core.results.measures_table import positive_direction
 from carpus.core.session.values import Motion, Session
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.measures.finger_range import flexion_weights
+from carpus.core.measures.motion_range import flexion_weights
 from carpus.core.measures.signals import BoolArray, valid_wrist_angles
 from carpus.core.measures.wrist_centre import rotation_in_w0
 from carpus.core.model.hand.clinical_angles import isb_from_rotation, zyz_with_sd

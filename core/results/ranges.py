@@ -12,8 +12,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.measures.finger_range import FINGERS, JointTrack, joint_range, total_active_motion
-from carpus.core.measures.motion_range import MotionRange, RangeStatistics, motion_range
+from carpus.core.measures.motion_range import (
+    FINGERS,
+    JointTrack,
+    MotionRange,
+    RangeStatistics,
+    joint_range,
+    motion_range,
+    total_active_motion,
+)
 from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import Signal, low_pass

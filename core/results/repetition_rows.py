@@ -14,8 +14,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.measures.finger_range import joint_range
-from carpus.core.measures.motion_range import MIN_VALID_SHARE, MotionRange, motion_range
+from carpus.core.measures.motion_range import MIN_VALID_SHARE, MotionRange, joint_range, motion_range
 from carpus.core.measures.noise import MAX_CUTOFF_HZ
 from carpus.core.measures.repetitions import (
     COUNTING_CUTOFF_HZ,

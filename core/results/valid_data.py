@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.measures.finger_range import JointTrack, joint_track, plausible_joints, valid_joints, visible_joints
+from carpus.core.measures.motion_range import JointTrack, joint_track, plausible_joints, valid_joints, visible_joints
 from carpus.core.measures.signals import (
     BoolArray,
     Signal,

@@ -18,7 +18,7 @@ import pytest
 from pyarrow import parquet
 
 from carpus.app import python_api
-from carpus.core.formats.measures_files import MEASURES_HEADER
+from carpus.core.formats.measures_table import MEASURES_HEADER
 from carpus.core.model.types import TrackedFrame, TrackStatus
 from carpus.core.records.session_records import add_comment, save_choices
 from carpus.core.results.repetition_rows import RepetitionChoices

@@ -14,8 +14,8 @@ import pytest
 from pyarrow import parquet
 
 from carpus.app.commands.track_many import MEASURES_FILE, OUTCOMES_FILE
-from carpus.core.formats import measures_files
-from carpus.core.results.measures_table import MeasureRow
+from carpus.core.formats import measures_table
+from carpus.core.formats.measures_table import MeasureRow
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE
@@ -123,10 +123,10 @@ def test_batch_foreign_table_is_not_replaced(made: Path, tmp_path: Path, command
 
 
 def test_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(measures_files, "BATCH_ROWS", 5)
+    monkeypatch.setattr(measures_table, "BATCH_ROWS", 5)
     kinds = {"str": "", "float": math.nan, "int": 0, "bool": False}
     row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]
-    with measures_files.open_measures_file(tmp_path / "t.parquet") as take:
+    with measures_table.open_measures_file(tmp_path / "t.parquet") as take:
         for _ in range(4):
             take([row] * 3, ())
         assert (tmp_path / "t.parquet.half").exists(), "written as it comes"

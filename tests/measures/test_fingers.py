@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.measures.finger_range import (
+from carpus.core.measures.motion_range import (
     JointTrack,
     joint_range,
     joint_track,

@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from carpus.core.formats.measures_table import build_measure_rows
 from carpus.core.measures.manual_measurements import find_manual_measure
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.motion_curves import visible_angle_deg
 from carpus.core.results.norms import wrist_norm
 from carpus.core.results.ranges import LARGEST_SIZE

@@ -9,11 +9,11 @@ from datetime import date
 import numpy as np
 import pytest
 
+from carpus.core.formats.measures_table import build_measure_rows
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.phrase import phrase
 from carpus.core.records.values import Patient
 from carpus.core.results.measure import Measure, summarise_values
-from carpus.core.results.measures_table import build_measure_rows
 from carpus.core.results.norms import (
     SHARE_OF_OTHER,
     Person,

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.results.measures_table import build_measure_rows
+from carpus.core.formats.measures_table import build_measure_rows
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Event, Session

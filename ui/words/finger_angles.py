@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.measures.finger_range import plausible_joints
+from carpus.core.measures.motion_range import plausible_joints
 from carpus.core.measures.signals import BoolArray
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 from carpus.core.model.hand.protocols import MarkerProtocol, markers_at_joint

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from carpus.core.measures.finger_range import MIN_FURTHER_RAD
+from carpus.core.measures.motion_range import MIN_FURTHER_RAD
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import MAX_ANGLE_SD_RAD, MAX_FILLED_GAP_S, SETTLING_S, resample_evenly
 from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
