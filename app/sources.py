@@ -43,9 +43,7 @@ def open_recording(
     if path.is_dir():
         from carpus.core.capture.files.tum import TumFolder
 
-        source = TumFolder(
-            path, requires_depth=need_depth, read_ahead=8, skip_damaged=leave_out_damaged, notice=notice
-        )  # fmt: skip
+        source = TumFolder(path, requires_depth=need_depth, skip_damaged=leave_out_damaged, notice=notice)
     elif path.suffix.lower() == ".oni":
         from carpus.core.capture.files.oni_source import OniSource
 

@@ -31,7 +31,6 @@ _FPS = 15.0
 """Half the frames of a real camera: they are rendered before the first report."""
 _TILT_DEG, _HAND_TILT_DEG = 4.0, {"right": 11.0, "left": 8.0}
 """The thumb's markers face sideways: tilt that side up as far as the calibration allows."""
-_READ_AHEAD = 8
 
 
 def practice_spec(set_up: SessionSetup) -> RecordingSpec:
@@ -69,7 +68,7 @@ def render_practice(set_up: SessionSetup, progress: Callable[[int, int], None]) 
     from carpus.core.simulation.recording import render_cached
 
     folder = render_cached(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
-    return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / _FPS
+    return TumFolder(folder), STILL_S - 1.0 / _FPS
 
 
 def render_practice_start(set_up: SessionSetup) -> tuple[FrameSource, float] | None:

@@ -17,7 +17,7 @@ from carpus.core.model.dates import is_moment
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.names import CAMERAS_FOLDER, file_stem
 from carpus.core.model.types import DepthImage, Frame
-from carpus.core.platform.durable import replace_text, write_fault
+from carpus.core.platform.durable import make_private_folder, replace_text
 
 SUFFIX = ".camera_info.yaml"
 ORIGIN = "calibration"
@@ -28,32 +28,17 @@ _REPLACEABLE_ORIGINS = ("default", "driver", "factory")
 
 
 class CalibratedSource:
-    """Source with the intrinsics of a stored calibration and corrected depth."""
+    """Source with stored facts of its camera, and depth corrected by a calibration if there is one."""
 
-    def __init__(self, source: FrameSource, info: CameraInfo) -> None:
-        assert info.calibration is not None
-        calibration, recorded = info.calibration, source.info.recorded
-        self._source, self._calibration = source, calibration
-        measured = datetime.fromisoformat(recorded) if is_moment(recorded) else datetime.now(UTC)
-        self.info: SourceInfo = replace(
-            source.info,
-            camera=replace(info.camera, origin=ORIGIN, sensor=source.info.sensor),
-            settings={
-                **source.info.settings,
-                "calibrated": calibration.calibrated,
-                "calibration_age_days": f"{age_days(calibration.calibrated, measured):.1f}",
-                "calibration_error_px": f"{calibration.error_px:.2f}",
-                "depth_scale_corrected": f"{calibration.depth_scale:.5f}",
-                "depth_offset_corrected_mm": f"{calibration.depth_offset_m * 1e3:.2f}",
-            },
-        )
+    def __init__(self, source: FrameSource, info: SourceInfo, calibration: StoredCalibration | None = None) -> None:
+        self._source, self.info = source, info
+        is_exact = calibration and calibration.depth_scale == 1.0 and calibration.depth_offset_m == 0.0
+        self._calibration = None if is_exact else calibration
 
     def frames(self) -> Iterator[Frame]:
-        calibration = self._calibration
-        is_exact = calibration.depth_scale == 1.0 and calibration.depth_offset_m == 0.0
-        tables: dict[float, DepthImage] = {}
+        calibration, tables = self._calibration, dict[float, DepthImage]()
         for frame in self._source.frames():
-            if frame.depth_raw is None or is_exact:
+            if frame.depth_raw is None or calibration is None:
                 yield frame
                 continue
             unit_m = frame.depth_unit_m
@@ -68,20 +53,7 @@ class CalibratedSource:
 
 
 def compute_correction_table(calibration: StoredCalibration, unit_m: float) -> DepthImage:
-    """Return corrected depth for each possible count.
-
-    Parameters
-    ----------
-    calibration : StoredCalibration
-        Scale and offset of the measured depth.
-    unit_m : float
-        Metres per count of the camera's depth.
-
-    Returns
-    -------
-    ndarray of uint16, shape (65536,)
-        True depth in steps of 0.1 mm; 0 (no reading) stays 0.
-    """
+    """Return true depth (65536,) in steps of 0.1 mm for each count of ``unit_m``; 0 (no reading) stays 0."""
     measured_m = np.arange(_MAX_COUNT + 1) * unit_m
     true_m = (measured_m - calibration.depth_offset_m) / calibration.depth_scale
     counts = np.round(true_m / _DEPTH_STEP_M)
@@ -98,9 +70,20 @@ def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSour
         return source
     info = load_stored_calibration(data_folder, serial)
     size = (source.info.camera.width_px, source.info.camera.height_px)
-    if info is None or (info.camera.width_px, info.camera.height_px) != size:
+    if info is None or info.calibration is None or (info.camera.width_px, info.camera.height_px) != size:
         return source
-    return CalibratedSource(source, info)
+    calibration, recorded = info.calibration, source.info.recorded
+    measured = datetime.fromisoformat(recorded) if is_moment(recorded) else datetime.now(UTC)
+    settings = {
+        **source.info.settings,
+        "calibrated": calibration.calibrated,
+        "calibration_age_days": f"{age_days(calibration.calibrated, measured):.1f}",
+        "calibration_error_px": f"{calibration.error_px:.2f}",
+        "depth_scale_corrected": f"{calibration.depth_scale:.5f}",
+        "depth_offset_corrected_mm": f"{calibration.depth_offset_m * 1e3:.2f}",
+    }
+    camera = replace(info.camera, origin=ORIGIN, sensor=source.info.sensor)
+    return CalibratedSource(source, replace(source.info, camera=camera, settings=settings), calibration)
 
 
 def load_stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None:
@@ -139,21 +122,6 @@ MAX_NAME_CHARACTERS = 40
 _NAMES_FILE = "names.json"
 
 
-class NamedSource:
-    """Source with the name that a person gave to its camera."""
-
-    def __init__(self, source: FrameSource, name: str) -> None:
-        self._source = source
-        settings = {**source.info.settings, SERIAL: name, SERIAL_GIVEN: "yes"}
-        self.info: SourceInfo = replace(source.info, settings=settings)
-
-    def frames(self) -> Iterator[Frame]:
-        return self._source.frames()
-
-    def close(self) -> None:
-        self._source.close()
-
-
 def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
     """Return the source under the name given to its kind of camera.
 
@@ -162,7 +130,8 @@ def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
     if source.info.serial:
         return source
     name = _load_names(data_folder).get(source.info.name, "")
-    return NamedSource(source, name) if name else source
+    settings = {**source.info.settings, SERIAL: name, SERIAL_GIVEN: "yes"}
+    return CalibratedSource(source, replace(source.info, settings=settings)) if name else source
 
 
 def normalize_name(text: str) -> str:
@@ -171,9 +140,8 @@ def normalize_name(text: str) -> str:
     >>> normalize_name("  room 3\t left ")
     'room 3 left'
     """
-    return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())[
-        :MAX_NAME_CHARACTERS
-    ].strip()
+    words = "".join(letter if letter.isprintable() else " " for letter in text).split()
+    return " ".join(words)[:MAX_NAME_CHARACTERS].strip()
 
 
 def save_camera_name(data_folder: Path, kind: str, name: str) -> str:
@@ -193,10 +161,7 @@ def save_camera_name(data_folder: Path, kind: str, name: str) -> str:
         of_kind = f" ({normalize_name(kind)[: MAX_NAME_CHARACTERS // 2]})"
         stored_name = normalize_name(stored_name[: MAX_NAME_CHARACTERS - len(of_kind)] + of_kind)
     names = {**others, kind: stored_name}
-    try:
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError as cause:
-        raise write_fault(path, cause) from cause
+    make_private_folder(path.parent)
     replace_text(path, json.dumps(names, ensure_ascii=False))
     return stored_name
 

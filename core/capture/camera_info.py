@@ -35,20 +35,10 @@ _SENSOR = "depth_sensor"
 
 @dataclass(frozen=True, slots=True)
 class StoredCalibration:
-    """Calibration measured on a printed board.
+    """Calibration of the camera ``serial`` on a printed board, at a time (ISO 8601 with zone).
 
-    Attributes
-    ----------
-    serial : str
-        Serial number of the camera.
-    calibrated : str
-        Time of the calibration, ISO 8601 with zone.
-    depth_scale, depth_offset_m : float
-        Measured depth = scale * true depth + offset; 1 and 0 if depth was not checked.
-    error_px : float
-        Reprojection error of the board's corners.
-    pictures : int
-        Number of images of the board.
+    Measured depth = scale * true depth + offset; 1 and 0 if depth was not checked. ``error_px`` is the reprojection
+    error of the board's corners, ``pictures`` the number of its images.
     """
 
     serial: str
@@ -97,9 +87,9 @@ def read_camera_info(path: Path) -> CameraInfo:
         flags = {key: content.get(key) for key in ("registered", "mirrored", SIMULATED)}
         for key, value in flags.items():
             if value is not None and not isinstance(value, bool):
-                raise _ContentError(phrase("{key} is neither true nor false", key=key))
+                raise ValueError(phrase("{key} is neither true nor false", key=key))
         camera, calibration, unit_m = _parse_camera(content), _parse_calibration(content), _parse_depth_unit_m(content)
-    except _ContentError as cause:
+    except ValueError as cause:
         raise CameraFileUnreadable(path, cause.args[0]) from cause
     return CameraInfo(camera, flags["registered"], flags["mirrored"], bool(flags[SIMULATED]), calibration, unit_m)
 
@@ -111,7 +101,6 @@ def write_camera_info(
     camera_name: str = "carpus",
     registered: bool | None = None,
     mirrored: bool | None = None,
-    simulated: bool = False,
     calibration: StoredCalibration | None = None,
 ) -> None:
     """Write the camera as a ROS camera calibration file; an existing file is kept."""
@@ -129,8 +118,6 @@ def write_camera_info(
     for name, value in (("registered", registered), ("mirrored", mirrored)):
         if value is not None:
             content[name] = value
-    if simulated:
-        content[SIMULATED] = True
     if camera.sensor.origin != ASSUMED:
         content[_SENSOR] = camera.sensor.to_dict()
     if calibration is not None:
@@ -168,43 +155,39 @@ def _format_matrix(rows: int, columns: int, data: list[float]) -> dict[str, Any]
     return {"rows": rows, "cols": columns, "data": [float(value) for value in data]}
 
 
-class _ContentError(Exception):
-    """Raised with a text if the content of a camera file is invalid."""
-
-
 def _parse_camera(content: dict[str, Any]) -> Camera:
     model_name = content.get("distortion_model", _DEFAULT_MODEL)
     model = next((each for each in DISTORTION_COEFFICIENT_COUNTS if each == model_name), None)
     if model is None:
         models = " or ".join(DISTORTION_COEFFICIENT_COUNTS)
-        raise _ContentError(
+        raise ValueError(
             phrase("distortion_model {said}, {coefficients} expected", said=model_name, coefficients=models)
         )
     sides: list[int] = []
     for key in ("image_width", "image_height"):
         side = content.get(key)
         if isinstance(side, bool) or not isinstance(side, int) or not 0 < side <= _MAX_SIDE_PX:
-            raise _ContentError(phrase("{key} is not a number of pixels", key=key))
+            raise ValueError(phrase("{key} is not a number of pixels", key=key))
         sides.append(side)
     width, height = sides
     k = _parse_numbers(content, "camera_matrix")
     if len(k) != 9:
-        raise _ContentError(phrase("camera_matrix has {count} numbers, 9 expected", count=len(k)))
+        raise ValueError(phrase("camera_matrix has {count} numbers, 9 expected", count=len(k)))
     fx, skew, cx, zero, fy, cy, *last = k
     if fx <= 0.0 or fy <= 0.0 or [skew, zero, *last] != [0.0, 0.0, 0.0, 0.0, 1.0]:
-        raise _ContentError(phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
+        raise ValueError(phrase("camera_matrix is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]"))
     if not all(_FOCAL_LENGTH_RANGE[0] <= f / width <= _FOCAL_LENGTH_RANGE[1] for f in (fx, fy)):
         values = {"fx": f"{fx:g}", "fy": f"{fy:g}", "width": width}
-        raise _ContentError(phrase("fx {fx} and fy {fy} do not fit a frame width of {width} pixels", **values))
+        raise ValueError(phrase("fx {fx} and fy {fy} do not fit a frame width of {width} pixels", **values))
     distortion = _parse_numbers(content, "distortion_coefficients") if "distortion_coefficients" in content else []
     wanted = DISTORTION_COEFFICIENT_COUNTS[model]
     if len(distortion) not in (0, 4, 5, wanted):
         counts = {"count": len(distortion), "wanted": wanted}
-        raise _ContentError(phrase("distortion_coefficients has {count} numbers, {wanted} expected", **counts))
+        raise ValueError(phrase("distortion_coefficients has {count} numbers, {wanted} expected", **counts))
     try:
         sensor = parse_sensor(content[_SENSOR]) if content.get(_SENSOR) is not None else ASSUMED_SENSOR
     except ValueError as cause:
-        raise _ContentError(f"{_SENSOR}: {cause}") from cause
+        raise ValueError(f"{_SENSOR}: {cause}") from cause
     lens = (*distortion, *[0.0] * (wanted - len(distortion)))
     camera = Camera(fx, fy, cx, cy, width, height, lens, "file", sensor, model)
     # distorting the undistorted pixels returns them, up to the outer tenth of the image
@@ -213,7 +196,7 @@ def _parse_camera(content: dict[str, Any]) -> Camera:
     with np.errstate(all="ignore"):
         off_px = np.abs(camera.distort(camera.undistort(pixel)) - pixel).max()
     if not off_px <= _MAX_ROUND_TRIP_PX:
-        raise _ContentError(phrase("distortion_coefficients do not describe a lens: they cannot be inverted"))
+        raise ValueError(phrase("distortion_coefficients do not describe a lens: they cannot be inverted"))
     return camera
 
 
@@ -233,10 +216,10 @@ def _parse_calibration(content: dict[str, Any]) -> StoredCalibration | None:
         if not is_moment(calibration.calibrated):
             raise ValueError(calibration.calibrated)
     except (KeyError, TypeError, ValueError, OverflowError) as cause:
-        raise _ContentError(phrase("{calibration} is not in the format of Carpus", calibration=_CALIBRATION)) from cause
+        raise ValueError(phrase("{calibration} is not in the format of Carpus", calibration=_CALIBRATION)) from cause
     is_scale = _SCALE_RANGE[0] <= calibration.depth_scale <= _SCALE_RANGE[1]
     if not (is_scale and abs(calibration.depth_offset_m) <= _MAX_OFFSET_M):
-        raise _ContentError(phrase("{calibration} has an impossible depth", calibration=_CALIBRATION))
+        raise ValueError(phrase("{calibration} has an impossible depth", calibration=_CALIBRATION))
     return calibration
 
 
@@ -249,7 +232,7 @@ def _parse_depth_unit_m(content: dict[str, Any]) -> float | None:
     except (TypeError, ValueError):
         unit_m = math.nan
     if not _DEPTH_UNIT_RANGE_M[0] <= unit_m <= _DEPTH_UNIT_RANGE_M[1]:
-        raise _ContentError(phrase("depth_unit_m is not metres per count, as 0.001 or 0.0002"))
+        raise ValueError(phrase("depth_unit_m is not metres per count, as 0.001 or 0.0002"))
     return unit_m
 
 
@@ -257,14 +240,14 @@ def _parse_numbers(content: dict[str, Any], key: str) -> list[float]:
     block = content.get(key)
     data = block.get("data") if isinstance(block, dict) else None
     if not isinstance(data, list):
-        raise _ContentError(phrase("{key} has no data", key=key))
+        raise ValueError(phrase("{key} has no data", key=key))
     try:
         # YAML 1.1 takes 1e-05 for a word, so words are read as numbers too
         numbers = [float(value) for value in data if not isinstance(value, bool)]
     except (TypeError, ValueError):
         numbers = []
     if len(numbers) != len(data) or not all(math.isfinite(value) for value in numbers):
-        raise _ContentError(phrase("{key} contains a value that is not a number", key=key))
+        raise ValueError(phrase("{key} contains a value that is not a number", key=key))
     return numbers
 
 

@@ -23,12 +23,12 @@ import numpy as np
 from carpus.core.capture.devices.cameras import (
     CAMERAS,
     CameraKind,
+    UsbCamera,
     choose_kind,
     load_camera_kind,
     open_camera,
     parse_kind,
 )
-from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model import errors

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.capture.camera_info import rescale_camera
-from carpus.core.capture.video_mode import Lens, PixelFormat
+from carpus.core.capture.source import Lens, PixelFormat, Sensor
 from carpus.core.model.camera import DEFAULT_CAMERA, DISTORTION_COEFFICIENT_COUNTS, Camera, DistortionModel
 from carpus.core.model.types import Frame
 
@@ -114,12 +114,12 @@ class FrameAssembler:
         self._depths: deque[DriverImage] = deque()
         self._last_number = 0
 
-    def add_color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        self._colors.append(DriverImage(timestamp_us, number, self.layout.convert_color(view)))
-        return self._release_frames()
-
-    def add_depth(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        self._depths.append(DriverImage(timestamp_us, number, self.layout.convert_depth(view)))
+    def add(self, sensor: Sensor, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
+        """Add an image in the driver's memory; return the frames that are complete."""
+        if sensor == Sensor.COLOR:
+            self._colors.append(DriverImage(timestamp_us, number, self.layout.convert_color(view)))
+        else:
+            self._depths.append(DriverImage(timestamp_us, number, self.layout.convert_depth(view)))
         frames = self._release_frames()
         while len(self._depths) > self._limit:
             self._depths.popleft()

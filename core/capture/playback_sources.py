@@ -19,8 +19,6 @@ class PacedSource:
     """
 
     def __init__(self, source: FrameSource, speed: float = 1.0) -> None:
-        if not speed > 0.0:
-            raise ValueError("speed must be above 0")
         self._source = source
         self._speed = speed
         self._closed = threading.Event()

@@ -1,4 +1,4 @@
-"""The protocol of all sources of frames, and identity and date of a recording."""
+"""What all sources of frames share: modes of their images, facts, protocol; identity and date of a recording."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from enum import IntEnum
 from pathlib import Path
 from typing import Literal, NamedTuple, Protocol
 
@@ -27,6 +28,53 @@ NoticeHandler = Callable[[CarpusFault], None]
 
 def ignore_notice(_fault: CarpusFault) -> None:
     """Ignore a notice."""
+
+
+class Sensor(IntEnum):
+    """Kinds of streams; the numbers are OpenNI2's."""
+
+    IR = 1
+    COLOR = 2
+    DEPTH = 3
+
+
+class PixelFormat(IntEnum):
+    """Pixel formats that occur; the numbers are OpenNI2's."""
+
+    DEPTH_1_MM = 100
+    DEPTH_100_UM = 101
+    RGB888 = 200
+    YUV422 = 201
+    GRAY8 = 202
+    GRAY16 = 203
+    JPEG = 204
+    YUYV = 205
+
+
+@dataclass(frozen=True, slots=True)
+class VideoMode:
+    """Size, rate and pixel format of a stream."""
+
+    pixel_format: int
+    width_px: int
+    height_px: int
+    fps: int
+
+    def __str__(self) -> str:
+        names = {int(item): item.name for item in PixelFormat}
+        return f"{self.width_px}x{self.height_px} {names.get(self.pixel_format, self.pixel_format)} {self.fps} fps"
+
+
+@dataclass(frozen=True, slots=True)
+class Lens:
+    """Intrinsics of the colour images as the driver states them, px, with distortion model and coefficients."""
+
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    model: str
+    coefficients: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,15 +140,11 @@ class FrameSource(Protocol):
         ...
 
 
-DateSource = Literal["asked", "recording", "times", "file"]
-"""Where the date comes from: a person, the recording itself, its times (counted from 1970), or the date of its file."""
-
-
 class RecordingDate(NamedTuple):
-    """Time of a recording, ISO 8601 with zone, and its source."""
+    """Time of a recording (ISO 8601 with zone) as a person, itself, its times since 1970 or its file's date say."""
 
     time: str
-    source: DateSource
+    source: Literal["asked", "recording", "times", "file"]
 
 
 def compute_recording_id(info: SourceInfo, first: Frame) -> str:

@@ -36,7 +36,6 @@ from carpus.ui.screens.live.screen import LiveScreen
 
 SIZE_PX = (1920, 1080)
 FPS = 30.0
-READ_AHEAD = 8
 SETTLED_S = 10.0
 """Memory is compared from here on: by then every buffer has its size."""
 REST_S = 30.0
@@ -127,7 +126,7 @@ def make_spec(set_up: SessionSetup) -> RecordingSpec:
 def render_take(set_up: SessionSetup, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
     """The take, rendered once and kept, and how long it is still at its start."""
     folder = render_cached(make_spec(set_up), progress, workers=os.cpu_count() or 1)
-    return TumFolder(folder, read_ahead=READ_AHEAD), STILL_S - 1.0 / FPS
+    return TumFolder(folder), STILL_S - 1.0 / FPS
 
 
 def choose_whole_hand(journey: MainController) -> None:

@@ -19,7 +19,7 @@ from carpus.core.capture.files import oni_format as oni
 from carpus.core.capture.files.image_codec import encode_color
 from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.capture.video_mode import PixelFormat
+from carpus.core.capture.source import PixelFormat
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, DepthImage, Frame
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
@@ -199,7 +199,10 @@ def write_oni(
             if frame.depth_raw is not None:
                 writer.add_depth(frame.depth_raw, frame.timestamp_s)
             writer.add_color(frame.color_rgb, frame.timestamp_s)
-    write_camera_info(sidecar_path(path), camera, registered=True, simulated=simulated)
+    write_camera_info(sidecar_path(path), camera, registered=True)
+    if simulated:
+        with sidecar_path(path).open("a") as file:
+            file.write("simulated: true\n")
 
 
 def _string(text: str) -> bytes:

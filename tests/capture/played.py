@@ -8,12 +8,10 @@ from unittest import mock
 
 import numpy as np
 
-from carpus.core.capture.devices.capture_child import CaptureChannel, DeviceOpened
-from carpus.core.capture.devices.capture_process import CaptureProcess
+from carpus.core.capture.devices.capture_process import CaptureChannel, CaptureProcess, DeviceOpened
 from carpus.core.capture.files import realsense_recording
 from carpus.core.capture.files.realsense_recording import SLOTS, RealSenseRecording
-from carpus.core.capture.source import SourceInfo
-from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.capture.source import PixelFormat, Sensor, SourceInfo, VideoMode
 from tests.capture.oni_samples import CAMERA, HEIGHT, WIDTH, color_picture
 
 MODES = {Sensor.COLOR: VideoMode(PixelFormat.RGB888, WIDTH, HEIGHT, 30)}
@@ -45,7 +43,7 @@ class PlayedSource(RealSenseRecording):
     @property
     def pid(self) -> int:
         assert self._process is not None
-        return self._process.pid
+        return self._process._child.pid
 
     def _open(self) -> DeviceOpened | None:
         def start(*_: object) -> CaptureProcess:

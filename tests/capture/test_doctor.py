@@ -11,8 +11,7 @@ import pytest
 
 from carpus.core.capture import doctor
 from carpus.core.capture.devices import openni2_camera, realsense
-from carpus.core.capture.devices.cameras import CameraKind, load_camera_kind
-from carpus.core.capture.devices.usb_devices import UsbCamera
+from carpus.core.capture.devices.cameras import CameraKind, UsbCamera, load_camera_kind
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
@@ -87,7 +86,7 @@ def test_check_driver_missing_library_is_bad(monkeypatch: pytest.MonkeyPatch) ->
         raise DriverMissing("libOpenNI2.so.0", "cannot open shared object file")
 
     monkeypatch.setattr(openni2_camera, "load_library", missing)
-    finding = openni2_camera.check_driver()
+    finding = openni2_camera.check_driver(True, True)
     assert (finding.state, finding.observation) == ("bad", "cannot open shared object file")
     assert "libopenni2-0" in finding.remedy
 

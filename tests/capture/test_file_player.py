@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.devices import capture_process
-from carpus.core.capture.files import realsense_recording
+from carpus.core.capture.devices.capture_process import CaptureProcess
 from carpus.core.model.errors import DriverFailed
 from carpus.core.model.types import Frame
 from tests.capture.oni_samples import color_picture
@@ -47,7 +47,7 @@ def test_file_player_dead_or_hanging_library_raises(
     frames = source.frames()
     next(frames)
     with monkeypatch.context() as patience:
-        patience.setattr(realsense_recording, "REPORT_TIMEOUT_S", 0.5)
+        patience.setattr(CaptureProcess.receive_report, "__defaults__", (0.5,))
         os.kill(source.pid, blow)
         with pytest.raises(DriverFailed) as caught:
             list(frames)

@@ -9,18 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from carpus.core.capture.devices import openni2_camera
-from carpus.core.capture.devices.capture_child import camera_unlisted_error
+from carpus.core.capture.devices import cameras, openni2_camera
+from carpus.core.capture.devices.cameras import UsbCamera, camera_unlisted_error, find_usb_cameras
 from carpus.core.capture.devices.openni2 import OpenNI2Error, VideoFrame
 from carpus.core.capture.devices.openni2_camera import MODELS, frame_size_bytes
-from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.frame_assembly import (
     PAIRING_TOLERANCE_US,
     FrameAssembler,
     StreamLayout,
     camera_from_field_of_view,
 )
-from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.capture.source import PixelFormat, Sensor, VideoMode
 from carpus.core.model.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
 from carpus.core.model.types import Frame
 
@@ -33,7 +32,7 @@ LAYOUT = StreamLayout((6, 4), (6, 4))
 def feed(assembler: FrameAssembler, kind: str, time_us: int, number: int = 1) -> list[Frame]:
     """Feed an image; depth has the value of its turn, by which it is found again."""
     view = np.zeros((4, 6, 3), np.uint8) if kind == "color" else np.full((4, 6), number, np.uint16)
-    return (assembler.add_color if kind == "color" else assembler.add_depth)(time_us, number, view)
+    return assembler.add(Sensor.COLOR if kind == "color" else Sensor.DEPTH, time_us, number, view)
 
 
 def pair_images(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:
@@ -78,11 +77,11 @@ def test_frame_assembler_counts_gaps_and_survives_clock_restart() -> None:
     assembler = FrameAssembler(layout, PERIOD_US, 4)
     frames = []
     for number, time_us in ((1, 0), (2, PERIOD_US), (5, 4 * PERIOD_US), (6, 4 * PERIOD_US)):
-        frames += assembler.add_color(time_us, number, color_of(number))
+        frames += assembler.add(Sensor.COLOR, time_us, number, color_of(number))
     assert [frame.dropped_before for frame in frames] == [0, 0, 2]
     assembler.restart(layout, first_us=7_000, gap_us=1_000_000)
-    frames += assembler.add_color(7_000, 1, color_of(9))
-    frames += assembler.add_color(7_000 + PERIOD_US, 2, color_of(10))
+    frames += assembler.add(Sensor.COLOR, 7_000, 1, color_of(9))
+    frames += assembler.add(Sensor.COLOR, 7_000 + PERIOD_US, 2, color_of(10))
     assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
     times_s = np.array([frame.timestamp_s for frame in frames])
     assert np.diff(times_s) == pytest.approx([0.033333, 0.099999, 1.0, 0.033333])
@@ -156,9 +155,11 @@ def plugged_in(root: Path, product: str = "0601", *, driver: str | None = None) 
     return root / "dev"
 
 
-def test_find_usb_cameras_reads_sysfs(tmp_path: Path) -> None:
+def test_find_usb_cameras_reads_sysfs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     nodes = plugged_in(tmp_path, driver="usbfs")
-    (camera,) = find_usb_cameras(MODELS, tmp_path / "sys", nodes)
+    monkeypatch.setattr(cameras, "SYSFS", tmp_path / "sys")
+    monkeypatch.setattr(cameras, "DEVICE_NODES", nodes)
+    (camera,) = find_usb_cameras(MODELS)
     assert camera == UsbCamera("Asus Xtion Pro Live", "1d27", "0601", nodes / "001" / "007", 480, True, True)
 
 
@@ -168,7 +169,7 @@ def seen(**changes: bool) -> UsbCamera:
 
 
 @pytest.mark.parametrize(
-    ("cameras", "reason", "fault"),
+    ("connected", "reason", "fault"),
     [
         ([], "no devices found", CameraMissing),
         ([seen(can_open=False)], "Failed to open the USB device!", CameraPermission),
@@ -177,17 +178,17 @@ def seen(**changes: bool) -> UsbCamera:
         ([seen()], "USB transfer timeout!", DriverFailed),
     ],
 )
-def test_open_error_tells_the_cause(cameras: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
-    failed = openni2_camera._open_error(OpenNI2Error("oniDeviceOpen", 1, reason), cameras)
+def test_open_error_tells_the_cause(connected: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
+    failed = openni2_camera._open_error(OpenNI2Error("oniDeviceOpen", 1, reason), connected)
     assert type(failed) is fault
 
 
 @pytest.mark.parametrize(
-    ("cameras", "fault"),
+    ("connected", "fault"),
     [([], CameraMissing), ([seen(can_open=False)], CameraPermission), ([seen()], DriverFailed)],
 )
-def test_camera_unlisted_error_tells_the_cause(cameras: list[UsbCamera], fault: type[CarpusFault]) -> None:
-    assert type(camera_unlisted_error(cameras)) is fault
+def test_camera_unlisted_error_tells_the_cause(connected: list[UsbCamera], fault: type[CarpusFault]) -> None:
+    assert type(camera_unlisted_error(connected)) is fault
 
 
 def test_choose_mode_of_an_xtion_prefers_vga() -> None:
@@ -203,13 +204,13 @@ def test_choose_mode_of_an_xtion_prefers_vga() -> None:
 
 def test_frame_assembler_counts_missing_numbers() -> None:
     assembler = FrameAssembler(StreamLayout((6, 4), None), 1e6, 4)
-    frames = assembler.add_color(0, 1, color_of(1)) + assembler.add_color(PERIOD_US, 4, color_of(2))
+    frames = assembler.add(Sensor.COLOR, 0, 1, color_of(1)) + assembler.add(Sensor.COLOR, PERIOD_US, 4, color_of(2))
     assert frames[1].dropped_before == 2
 
 
 def test_frame_assembler_images_are_copies() -> None:
     view = color_of(3)
-    (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add_color(0, 1, view)
+    (frame,) = FrameAssembler(StreamLayout((6, 4), None), PERIOD_US, 4).add(Sensor.COLOR, 0, 1, view)
     view[:] = 0
     assert (frame.color_rgb == 3).all()
 

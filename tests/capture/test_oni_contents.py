@@ -12,7 +12,7 @@ import pytest
 from carpus.core.capture.files import oni_format as oni
 from carpus.core.capture.files.oni_format import NodeType, RecordType
 from carpus.core.capture.files.oni_source import read_contents
-from carpus.core.capture.video_mode import PixelFormat
+from carpus.core.capture.source import PixelFormat
 from carpus.core.model.errors import (
     CarpusFault,
     RecordingDamaged,

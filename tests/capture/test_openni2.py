@@ -14,7 +14,7 @@ import pytest
 from carpus.core.capture.devices import openni2
 from carpus.core.capture.devices.openni2 import load_library
 from carpus.core.capture.files.oni_source import OniSource
-from carpus.core.capture.video_mode import PixelFormat, VideoMode
+from carpus.core.capture.source import PixelFormat, VideoMode
 from carpus.core.model.errors import DriverMissing
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture, write_sample
 

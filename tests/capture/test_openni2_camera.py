@@ -11,7 +11,7 @@ from itertools import islice, pairwise
 
 import pytest
 
-from carpus.core.capture.devices.capture_child import CameraConfig
+from carpus.core.capture.devices.capture_process import CameraConfig, CaptureProcess
 from carpus.core.capture.devices.openni2_camera import KIND
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.model.camera import Camera
@@ -39,8 +39,7 @@ def camera(notices: list[CarpusFault]) -> Iterator[ProcessCamera]:
 
 
 def blow(source: ProcessCamera, how: signal.Signals) -> None:
-    assert source._process.pid is not None
-    os.kill(source._process.pid, how)
+    os.kill(source._process._child.pid, how)
 
 
 def assert_rising(frames: list[Frame]) -> None:
@@ -103,7 +102,7 @@ def test_openni2_camera_slow_reader_counts_drops_until_closed(
 def test_openni2_camera_lost_reconnects(
     camera: ProcessCamera, notices: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.devices.process_camera.REPORT_TIMEOUT_S", 2.0)
+    monkeypatch.setattr(CaptureProcess.receive_report, "__defaults__", (2.0,))
     frames = []
     for frame in camera.frames():
         frames.append(frame)

@@ -17,7 +17,7 @@ import pytest
 
 from carpus.core.capture.devices import orbbec
 from carpus.core.capture.devices.cameras import open_camera
-from carpus.core.capture.devices.capture_child import CameraConfig
+from carpus.core.capture.devices.capture_process import CameraConfig
 from carpus.core.capture.devices.orbbec import (
     check_driver,
     choose_streams,
@@ -93,7 +93,7 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, notices: list[Carp
 
 
 def find_driver() -> Finding:
-    found = check_driver()
+    found = check_driver(True, True)
     assert found is not None
     return found
 
@@ -108,7 +108,7 @@ def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyP
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert check_driver(is_needed=False) is None
+    assert check_driver(True, False) is None
     assert find_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     with pytest.raises(ExtraMissing) as notices:
         open_camera(f"orbbec:{SERIAL}")

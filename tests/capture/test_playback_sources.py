@@ -70,8 +70,3 @@ def test_paced_source_close_ends_wait_and_closes_source() -> None:
 def test_paced_source_can_be_played_again() -> None:
     source = PacedSource(Stored(gap_s=0.001))
     assert [one.index for one in source.frames()] == [one.index for one in source.frames()]
-
-
-def test_paced_source_speed_zero_raises() -> None:
-    with pytest.raises(ValueError, match="speed"):
-        PacedSource(Stored(), speed=0.0)

@@ -70,9 +70,8 @@ def edit(path: Path, change: Callable[[list[str]], list[str]]) -> None:
     path.write_text("\n".join(change(path.read_text().splitlines())) + "\n")
 
 
-@pytest.mark.parametrize("read_ahead", [0, 3])
-def test_tum_folder_images_are_read_exactly(take: Path, read_ahead: int) -> None:
-    source: FrameSource = TumFolder(take, read_ahead=read_ahead)
+def test_tum_folder_images_are_read_exactly(take: Path) -> None:
+    source: FrameSource = TumFolder(take)
     for _ in range(2):  # may be walked through again
         frames = list(source.frames())
         assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
@@ -187,7 +186,7 @@ def test_tum_folder_invalid_input_raises_one_fault(take: Path, case: str) -> Non
     spoil, kind, fact = BAD[case]
     spoil(take)
     with pytest.raises(kind) as caught:
-        list(TumFolder(take, read_ahead=2).frames())
+        list(TumFolder(take).frames())
     assert type(caught.value) is kind
     assert fact in caught.value.detail
     assert caught.value.subject.startswith(str(take))
@@ -195,7 +194,7 @@ def test_tum_folder_invalid_input_raises_one_fault(take: Path, case: str) -> Non
 
 def test_tum_folder_yields_frames_before_a_damaged_one(take: Path) -> None:
     cut(take, "rgb", 0.5)
-    frames = TumFolder(take, read_ahead=4).frames()
+    frames = TumFolder(take).frames()
     assert [next(frames).index for _ in range(2)] == [0, 1]
     with pytest.raises(FrameDamaged):
         next(frames)
@@ -244,7 +243,7 @@ def test_tum_folder_skip_damaged_notifies(take: Path) -> None:
     color[3].unlink()
     depth[2].write_bytes(b"")
     notices: list[CarpusFault] = []
-    source = TumFolder(take, read_ahead=3, skip_damaged=True, notice=notices.append)
+    source = TumFolder(take, skip_damaged=True, notice=notices.append)
     frames = list(source.frames())
     assert [frame.index for frame in frames] == [0, 1, 2]
     assert [frame.timestamp_s for frame in frames] == [round(TIMES_S[k], 6) for k in (0, 2, 4)]

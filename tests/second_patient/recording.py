@@ -118,7 +118,7 @@ def record_take(take: Take, folder: Path) -> Truth:
     truth = dataclasses.replace(truth, visible_share=share)
     np.save(folder / VISIBLE_FILE, share)
     write_clicks(folder / CLICKS_FILE, Clicks(truth.side, truth.protocol, clicks_px(take)))
-    write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False, simulated=True)
+    write_camera_info(folder / CAMERA_FILE, truth.camera, registered=True, mirrored=False)
     for kind, title, name in (("rgb", "color images", COLOR_LIST), ("depth", "depth maps", DEPTH_LIST)):
         text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
         (folder / name).write_text(text, encoding="utf-8")

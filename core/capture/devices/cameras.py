@@ -1,4 +1,4 @@
-"""Registry of live cameras.
+"""Registry of live cameras, the cameras on the USB bus, and why one of them cannot be opened.
 
 A camera module has a ``KIND``, a :class:`CameraKind`. Importing it loads no driver.
 """
@@ -6,24 +6,104 @@ A camera module has a ``KIND``, a :class:`CameraKind`. Importing it loads no dri
 from __future__ import annotations
 
 import math
+import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
 from carpus.core.capture.source import NoticeHandler, ignore_notice
+from carpus.core.model import errors
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
-from carpus.core.model.errors import CameraUnknown, DriverMissing, ExtraMissing
+from carpus.core.model.errors import CarpusFault
 from carpus.core.model.installation import Finding, install_hint
 from carpus.core.model.names import describe_known_names
 from carpus.core.model.phrase import Phrase, phrase
 
 if TYPE_CHECKING:
-    from carpus.core.capture.devices.capture_child import ServeFunction
+    from carpus.core.capture.devices.capture_process import ServeFunction
     from carpus.core.capture.devices.process_camera import ProcessCamera
+
+
+SYSFS = Path("/sys/bus/usb/devices")
+DEVICE_NODES = Path("/dev/bus/usb")
+
+
+@dataclass(frozen=True, slots=True)
+class UsbCamera:
+    """Camera on the bus, whether a driver can open it or not; ``speed_mbit`` is the speed of its port."""
+
+    name: str
+    vendor: str
+    product: str
+    node: Path
+    speed_mbit: int
+    can_open: bool
+    is_claimed: bool
+
+
+def find_usb_cameras(models: Mapping[tuple[str, str], str]) -> list[UsbCamera]:
+    """Return the connected cameras among ``models`` (name by USB vendor and product, four hexadecimal digits each).
+
+    Empty on systems without sysfs (no Linux).
+    """
+    found = []
+    for device in sorted(SYSFS.glob("*")):
+        vendor, product = _read_text(device / "idVendor"), _read_text(device / "idProduct")
+        name = models.get((vendor, product))
+        if name is None:
+            continue
+        bus, number = (int(_read_text(device / part) or 0) for part in ("busnum", "devnum"))
+        node = DEVICE_NODES / f"{bus:03d}" / f"{number:03d}"
+        drivers = [each.resolve().name for each in device.glob(f"{device.name}:*/driver")]
+        speed = _read_text(device / "speed")
+        speed_mbit, can_open = int(float(speed)) if speed else 0, os.access(node, os.R_OK | os.W_OK)
+        found.append(UsbCamera(name, vendor, product, node, speed_mbit, can_open, "usbfs" in drivers))
+    return found
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="ascii", errors="replace").strip()
+    except OSError:
+        return ""
+
+
+_BUSY_WORDS = ("busy", "in use", "errno=16")
+_PERMISSION_WORDS = ("permission", "access denied", "usb_status_access", "errno=13")
+
+
+def camera_unlisted_error(connected: Sequence[UsbCamera], listed: Sequence[str] = ()) -> CarpusFault:
+    """Return why the driver does not list the wanted camera.
+
+    The bus, which has the ``connected`` ones, does not state the serial numbers that drivers do: one that the driver
+    has not ``listed`` may be the wanted one.
+    """
+    if len(connected) > len(listed):
+        if locked := [camera.node for camera in connected if not camera.can_open]:
+            return errors.CameraPermission("", str(locked[0]))
+        if claimed := [camera.name for camera in connected if camera.is_claimed]:
+            return errors.CameraBusy("", claimed[0])
+        name = connected[0].name
+        return errors.DriverFailed("", phrase("{name} is plugged in, but the driver does not see it", name=name))
+    return errors.CameraMismatch("", ", ".join(listed)) if listed else errors.CameraMissing("", "")
+
+
+def camera_open_error(reason: str, connected: Sequence[UsbCamera]) -> CarpusFault:
+    """Return why the driver could not open a listed camera, from its own error message.
+
+    Which driver claims the camera is no help: the driver that failed may have claimed it itself.
+    """
+    text = reason.lower()
+    if any(word in text for word in _BUSY_WORDS):
+        return errors.CameraBusy("", reason)
+    locked = [str(camera.node) for camera in connected if not camera.can_open]
+    if locked or any(word in text for word in _PERMISSION_WORDS):
+        return errors.CameraPermission("", locked[0] if locked else reason)
+    return errors.DriverFailed("", reason)
 
 
 def require_package(package: str) -> str:
@@ -33,32 +113,35 @@ def require_package(package: str) -> str:
     try:
         return f"{package} {version(package)}"
     except PackageNotFoundError as cause:
-        raise ExtraMissing(package) from cause
+        raise errors.ExtraMissing(package) from cause
 
 
 def check_package(
-    name: str, package: str, load: Callable[[], None], loads_library: bool = True, is_needed: bool = True
+    name: str, package: str, import_sdk: Callable[[], object], loads_library: bool, is_needed: bool
 ) -> Finding | None:
-    """Check the camera maker's library by its package.
+    """Check the camera maker's library by its package; None if it is missing and not needed.
 
     It is loaded, in a process of its own, if ``loads_library`` and ``is_needed``.
-    Returns None if it is missing and not needed.
     """
     from carpus.core.platform.child_process import ChildDiedError, call_in_child
 
     try:
         found = require_package(package)
-    except ExtraMissing:
+    except errors.ExtraMissing:
         missing = phrase("missing: {package}", package=package)
         return Finding(name, "bad", missing, install_hint(package)) if is_needed else None
     try:
         if loads_library and is_needed:
-            call_in_child(load)
-    except (DriverMissing, ChildDiedError) as cause:
-        trouble = cause.detail if isinstance(cause, DriverMissing) else phrase("process ended")
+            call_in_child(_load, import_sdk)
+    except (errors.DriverMissing, ChildDiedError) as cause:
+        trouble = cause.detail if isinstance(cause, errors.DriverMissing) else phrase("process ended")
         words = phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble)
         return Finding(name, "bad", words, phrase("Reinstall it and the library it names."))
     return Finding(name, "good", found)
+
+
+def _load(import_sdk: Callable[[], object]) -> None:
+    import_sdk()  # a module cannot be sent back
 
 
 USB_3 = phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub.")
@@ -134,7 +217,7 @@ class CameraKind:
 
         ``camera`` are measured intrinsics; a camera absent for longer than ``patience_s`` raises :class:`CameraLost`.
         """
-        from carpus.core.capture.devices.capture_child import CameraConfig
+        from carpus.core.capture.devices.capture_process import CameraConfig
         from carpus.core.capture.devices.process_camera import ProcessCamera
 
         if self.package:
@@ -180,7 +263,7 @@ def validate_address(uri: str) -> None:
     """
     kind_name = uri.partition(":")[0]
     if kind_name and kind_name not in CAMERAS and "/" not in uri:
-        raise CameraUnknown(kind_name, describe_known_names(kind_name, CAMERAS))
+        raise errors.CameraUnknown(kind_name, describe_known_names(kind_name, CAMERAS))
 
 
 def load_camera_kind(name: str) -> CameraKind:

@@ -6,12 +6,11 @@ The automatic is switched off, then values are searched at which the images look
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from carpus.core.capture.devices.capture_child import CaptureChannel, ExposureLocked
+from carpus.core.capture.devices.capture_process import CaptureChannel, ExposureLocked
 
 EXPOSURE_SHARE = 0.9
 """Longest exposure as a share of the frame period: a longer one would slow the camera down."""
@@ -108,23 +107,21 @@ def _clamp(value: float, reach: tuple[float, float]) -> float:
     return max(reach[0], min(reach[1], value))
 
 
-class ColorOptions(ABC):
-    """Options of a colour camera: automatic exposure, automatic white balance, exposure, white balance (kelvin).
+@dataclass(frozen=True, slots=True)
+class ColorOptions:
+    """Options of a colour camera, by the maker's names of them.
 
-    ``fps`` limits the exposure.
+    ``set`` returns whether the camera accepted a value, ``read`` the value of an option and its range (``min``,
+    ``max``, ``step``), None if it cannot be set. ``fps`` limits the exposure.
     """
 
-    def __init__(self, options: Sequence[Any], fps: float) -> None:
-        self.auto_exposure, self.auto_white_balance, self.exposure, self.white_balance = options
-        self.max_exposure = EXPOSURE_SHARE / fps / EXPOSURE_UNIT_S
-
-    @abstractmethod
-    def set(self, option: Any, value: float) -> bool:
-        """Set an option; return whether the camera accepted it."""
-
-    @abstractmethod
-    def read(self, option: Any) -> tuple[float, Any] | None:
-        """Return the value of an option and its range (``min``, ``max``, ``step``); None if it cannot be set."""
+    auto_exposure: Any
+    auto_white_balance: Any
+    exposure: Any
+    white_balance: Any
+    fps: float
+    set: Callable[[Any, float], bool]
+    read: Callable[[Any], tuple[float, Any] | None]
 
     def set_nearest(self, option: Any, value: float) -> None:
         """Set an option to the nearest accepted value: a camera rejects values between its steps."""
@@ -154,12 +151,12 @@ class ColorLock:
         exposure, balance = options.read(options.exposure), options.read(options.white_balance)
         if not took[0] or exposure is None:
             return False
-        shortest, longest = exposure[1].min, exposure[1].max
+        shortest, longest = exposure[1].min, min(exposure[1].max, EXPOSURE_SHARE / options.fps / EXPOSURE_UNIT_S)
         kelvin, kelvins = (0.0, None) if balance is None else (balance[0], (balance[1].min, balance[1].max))
         self._controller = ColorController(
             measure_colors(self._last_image),
             exposure[0],
-            (shortest, max(shortest, min(longest, options.max_exposure))),
+            (shortest, max(shortest, longest)),
             kelvin,
             kelvins,
         )

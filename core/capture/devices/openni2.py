@@ -19,7 +19,7 @@ from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
-from carpus.core.capture.video_mode import Sensor, VideoMode
+from carpus.core.capture.source import Sensor, VideoMode
 from carpus.core.model.errors import DriverMissing
 
 API_VERSION = 2002

@@ -7,16 +7,14 @@ import sys
 import threading
 from collections.abc import Sequence
 
-from carpus.core.capture.devices.cameras import CameraKind
-from carpus.core.capture.devices.capture_child import (
+from carpus.core.capture.devices.cameras import CameraKind, UsbCamera, camera_unlisted_error, find_usb_cameras
+from carpus.core.capture.devices.capture_process import (
     FPS,
     POLL_MS,
     SIZE_PX,
     CameraConfig,
     CaptureChannel,
     DeviceOpened,
-    StreamWatchdog,
-    camera_unlisted_error,
 )
 from carpus.core.capture.devices.openni2 import (
     Context,
@@ -29,8 +27,7 @@ from carpus.core.capture.devices.openni2 import (
     library_version,
     load_library,
 )
-from carpus.core.capture.devices.usb_devices import UsbCamera, find_usb_cameras
-from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.capture.source import PixelFormat, Sensor, VideoMode
 from carpus.core.model import errors
 from carpus.core.model.depth_sensor import PRIMESENSE
 from carpus.core.model.errors import CarpusFault
@@ -44,6 +41,7 @@ MODELS = {
     ("1d27", "0601"): "Asus Xtion Pro Live",
     ("1d27", "0609"): "PrimeSense Carmine 1.09",
 }
+AUTOMATIC = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
 
 
 def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpened]:
@@ -58,10 +56,7 @@ def open_camera(library: Context, plan: CameraConfig) -> tuple[Device, DeviceOpe
         if stream.read_mode() != mode and not stream.set_mode(mode):
             raise errors.CameraUnsuited("", f"{sensor.name.lower()} {mode}")
         stream.set_int(StreamProperty.MIRRORING, 0)
-    automatic = [
-        streams[Sensor.COLOR].set_int(key, 1)
-        for key in (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
-    ]
+    automatic = [streams[Sensor.COLOR].set_int(key, 1) for key in AUTOMATIC]
     for stream in streams.values():
         stream.start()
     # only a running depth stream takes it
@@ -161,14 +156,14 @@ def serve(channel: CaptureChannel, plan: CameraConfig) -> None:
 
 
 def _serve(channel: CaptureChannel, plan: CameraConfig) -> None:
-    library, unplugged = Context(), _UnplugEvent()
-    channel.retain(library, unplugged)
-    library.register_disconnect_handler(unplugged.handle_disconnect)
+    library, unplugged = Context(), threading.Event()
     device, opened = open_camera(library, plan)
-    unplugged.uri = device.read_info().uri
+    uri = device.read_info().uri
+    library.register_disconnect_handler(lambda gone: unplugged.set() if gone == uri else None)
+    channel.retain(library, unplugged)
     streams = list(device.streams)
 
-    def forward_images(watchdog: StreamWatchdog) -> None:
+    def forward_images() -> None:
         if library.poll_streams(streams, POLL_MS) is not None:
             # the wait names the older stream; reading only that one would starve the other
             for stream in streams:
@@ -179,26 +174,15 @@ def _serve(channel: CaptureChannel, plan: CameraConfig) -> None:
                     if frame is not None and size is not None:
                         pixels = memoryview((ctypes.c_ubyte * size).from_address(frame.address)).cast("B")
                         channel.publish(stream.sensor, frame.index, frame.timestamp_us, pixels)
-                watchdog.reset(stream.sensor)
+                channel.note_image(stream.sensor)
 
     color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
-    automatic = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
-    channel.lock_exposure = lambda: sum(color.set_int(key, 0) for key in automatic) == len(automatic)
+    channel.lock_exposure = lambda: sum(color.set_int(key, 0) for key in AUTOMATIC) == len(AUTOMATIC)
     channel.send(opened)
     try:
         channel.run(opened.modes, unplugged, forward_images)
     finally:
         device.close()
-
-
-class _UnplugEvent(threading.Event):
-    """Event set by the library's threads when the device at ``uri`` is unplugged."""
-
-    uri = ""
-
-    def handle_disconnect(self, uri: str) -> None:
-        if uri == self.uri:
-            self.set()
 
 
 def frame_size_bytes(frame: VideoFrame, mode: VideoMode) -> int | None:
@@ -208,19 +192,12 @@ def frame_size_bytes(frame: VideoFrame, mode: VideoMode) -> int | None:
     """
     row = mode.width_px * BYTES_PER_PIXEL.get(mode.pixel_format, 0)
     size = row * mode.height_px
-    agreed = (
-        size > 0
-        and bool(frame.address)
-        and not frame.is_cropped
-        and frame.mode.pixel_format == mode.pixel_format
-        and (frame.width_px, frame.height_px) == (mode.width_px, mode.height_px)
-        and frame.stride_bytes == row
-        and frame.size_bytes == size
-    )
-    return size if agreed else None
+    stated = (frame.mode.pixel_format, frame.width_px, frame.height_px, frame.stride_bytes, frame.size_bytes)
+    agreed = stated == (mode.pixel_format, mode.width_px, mode.height_px, row, size)
+    return size if agreed and size > 0 and frame.address and not frame.is_cropped else None
 
 
-def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding:
+def check_driver(loads_library: bool, _is_needed: bool) -> Finding:
     """Check the OpenNI2 library; asking its version takes half a second in a process of its own."""
     try:
         load_library()
@@ -230,23 +207,15 @@ def check_driver(loads_library: bool = True, _is_needed: bool = True) -> Finding
             if sys.platform.startswith("linux")
             else phrase("Install OpenNI2 from the camera’s manufacturer, then restart Carpus.")
         )
-        return Finding(
-            phrase("Driver"),
-            "bad",
-            fault.detail or "not found",
-            phrase("Needed for live cameras. {remedy}", remedy=remedy),
-        )
+        remedy = phrase("Needed for live cameras. {remedy}", remedy=remedy)
+        return Finding(phrase("Driver"), "bad", fault.detail or "not found", remedy)
     if not loads_library:
         return Finding(phrase("Driver"), "good", phrase("OpenNI2"))
     try:
         version = call_in_child(library_version)
     except ChildDiedError:
-        return Finding(
-            phrase("Driver"),
-            "bad",
-            phrase("OpenNI2 stops when its version is queried"),
-            phrase("Reinstall OpenNI2."),
-        )
+        found = phrase("OpenNI2 stops when its version is queried")
+        return Finding(phrase("Driver"), "bad", found, phrase("Reinstall OpenNI2."))
     return Finding(phrase("Driver"), "good", phrase("OpenNI2 {value}", value=version))
 
 

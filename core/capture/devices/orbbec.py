@@ -14,22 +14,26 @@ from typing import Any
 
 import cv2
 
-from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_package
-from carpus.core.capture.devices.capture_child import (
+from carpus.core.capture.devices.cameras import (
+    USB_3,
+    CameraKind,
+    camera_open_error,
+    camera_unlisted_error,
+    check_firmware_and_usb,
+    check_package,
+    find_usb_cameras,
+)
+from carpus.core.capture.devices.capture_process import (
     FPS,
     POLL_MS,
     SIZE_PX,
     CameraConfig,
     CaptureChannel,
     DeviceOpened,
-    StreamWatchdog,
-    camera_open_error,
-    camera_unlisted_error,
 )
 from carpus.core.capture.devices.color_lock import ColorLock, ColorOptions
-from carpus.core.capture.devices.usb_devices import find_usb_cameras
 from carpus.core.capture.frame_assembly import DepthDistorter, camera_from_lens
-from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
+from carpus.core.capture.source import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.model.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.model.errors import CameraBusy, CameraUnsuited, DriverMissing
 from carpus.core.model.phrase import phrase
@@ -50,11 +54,6 @@ def import_sdk() -> Any:
     pyorbbecsdk.Context.set_logger_to_file(pyorbbecsdk.OBLogLevel.NONE, "")
     pyorbbecsdk.Context.set_logger_to_console(pyorbbecsdk.OBLogLevel.NONE)
     return pyorbbecsdk
-
-
-def load_library() -> None:
-    """Check that the library can be loaded; raises :class:`DriverMissing`."""
-    import_sdk()
 
 
 @contextmanager
@@ -161,6 +160,13 @@ def set_property(ob: Any, device: Any, prop: Any, value: float) -> bool:
     return False
 
 
+def read_property(ob: Any, device: Any, prop: Any) -> tuple[float, Any] | None:
+    """Return the value of an integer property and its range; None if it cannot be set."""
+    if not device.is_property_supported(prop, ob.OBPermissionType.PERMISSION_READ_WRITE):
+        return None
+    return float(device.get_int_property(prop)), device.get_int_property_range(prop)
+
+
 def read_full_size_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
     """Return size and intrinsics of the colour images as the camera sends them."""
     found, distortion = color.get_intrinsic(), color.get_distortion()
@@ -261,22 +267,32 @@ def _serve_camera(ob: Any, channel: CaptureChannel, plan: CameraConfig) -> None:
     channel.retain(context, device, pipeline, streams, config, handle_change)
     pipeline.start(config)
     pictures = _OrbbecImages(ob, channel, streams)
-    lock = ColorLock(channel, _OrbbecOptions(ob, device, streams.color.get_fps()))
+    prop = ob.OBPropertyID
+    options = ColorOptions(
+        prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL,
+        prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL,
+        prop.OB_PROP_COLOR_EXPOSURE_INT,
+        prop.OB_PROP_COLOR_WHITE_BALANCE_INT,
+        streams.color.get_fps(),
+        partial(set_property, ob, device),
+        partial(read_property, ob, device),
+    )
+    lock = ColorLock(channel, options)
     is_reported = False
 
-    def forward_images(watchdog: StreamWatchdog) -> None:
+    def forward_images() -> None:
         nonlocal is_reported
         both = pipeline.wait_for_frames(POLL_MS)
         color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
         if depth is not None:
-            watchdog.reset(Sensor.DEPTH)
+            channel.note_image(Sensor.DEPTH)
             if not is_reported:  # the unit comes with a depth image, in millimetres
                 unit_m = round(float(depth.get_depth_scale()) * 1e-3, UNIT_DIGITS)
                 channel.send(DeviceOpened(streams.modes, settings, read_lens(ob, streams), unit_m))
                 is_reported = True
             pictures.forward_depth(depth)
         if color is not None:
-            watchdog.reset(Sensor.COLOR)
+            channel.note_image(Sensor.COLOR)
             picture = pictures.forward_color(color)
             if picture is not None:
                 lock.add_frame(picture)
@@ -328,29 +344,6 @@ class _OrbbecImages:
         return pixels
 
 
-class _OrbbecOptions(ColorOptions):
-    """Properties of the colour camera."""
-
-    def __init__(self, ob: Any, device: Any, fps: float) -> None:
-        prop = ob.OBPropertyID
-        options = (
-            prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL,
-            prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL,
-            prop.OB_PROP_COLOR_EXPOSURE_INT,
-            prop.OB_PROP_COLOR_WHITE_BALANCE_INT,
-        )
-        super().__init__(options, fps)
-        self._ob, self._device = ob, device
-
-    def set(self, option: Any, value: float) -> bool:
-        return set_property(self._ob, self._device, option, value)
-
-    def read(self, option: Any) -> tuple[float, Any] | None:
-        if not self._device.is_property_supported(option, self._ob.OBPermissionType.PERMISSION_READ_WRITE):
-            return None
-        return float(self._device.get_int_property(option)), self._device.get_int_property_range(option)
-
-
 MODELS = {
     ("2bc5", "0635"): "Orbbec Femto",
     ("2bc5", "0638"): "Orbbec Femto W",
@@ -388,7 +381,7 @@ def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -
     return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
-check_driver = partial(check_package, phrase("Orbbec driver"), PACKAGE, load_library)
+check_driver = partial(check_package, phrase("Orbbec driver"), PACKAGE, import_sdk)
 KIND = CameraKind(
     title="Orbbec Femto, Gemini or Astra 2",
     models=MODELS,

@@ -9,19 +9,18 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from carpus.core.capture.camera_info import rescale_camera
-from carpus.core.capture.devices.capture_child import (
+from carpus.core.capture.devices.capture_process import (
     SIZE_PX,
     CameraConfig,
+    CaptureProcess,
     DeviceOpened,
     ExposureLocked,
     ImageArrived,
     ServeFunction,
     Signal,
 )
-from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, CaptureProcess
 from carpus.core.capture.frame_assembly import FrameAssembler, StreamLayout, camera_from_field_of_view, camera_from_lens
-from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
-from carpus.core.capture.video_mode import Sensor
+from carpus.core.capture.source import NoticeHandler, Sensor, SourceInfo
 from carpus.core.model import errors
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
@@ -59,18 +58,9 @@ class ProcessCamera:
     is plugged in meanwhile, ``notice`` receives :class:`CameraMismatch` and the wait goes on. Missed frames are counted
     in the next one.
 
-    Parameters
-    ----------
-    serve : callable
-        Serves ``plan`` in the capture process.
-    plan : CameraConfig
-        Which camera to open.
-    subject : str
-        Name of the camera in faults until it is open.
-    find_sensor : callable
-        Returns the depth sensor for the settings of the opened camera and the focal length of its colour images.
-    camera : Camera, optional
-        Measured intrinsics; default are those of the driver, or those from its field of view.
+    ``serve`` serves ``plan`` in the capture process; ``subject`` names the camera in faults until it is open;
+    ``find_sensor`` returns the depth sensor for the settings of the opened camera and the focal length of its colour
+    images; ``camera`` are measured intrinsics, else those of the driver, or those from its field of view.
     """
 
     def __init__(
@@ -80,9 +70,9 @@ class ProcessCamera:
         subject: str,
         find_sensor: Callable[[Mapping[str, str], float], DepthSensor],
         *,
-        camera: Camera | None = None,
-        patience_s: float = math.inf,
-        notice: NoticeHandler = ignore_notice,
+        camera: Camera | None,
+        patience_s: float,
+        notice: NoticeHandler,
     ) -> None:
         self._serve, self._plan, self._subject, self._find_sensor = serve, plan, subject, find_sensor
         self._patience_s = patience_s
@@ -98,7 +88,7 @@ class ProcessCamera:
             assert opened is not None
             self._opened: DeviceOpened = opened
             self._assembler = FrameAssembler(
-                _build_layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, MAX_WAITING_IMAGES, MAX_START_DROPS
+                build_layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, MAX_WAITING_IMAGES, MAX_START_DROPS
             )
             self.info = self._build_info(camera)
         except BaseException:
@@ -151,20 +141,15 @@ class ProcessCamera:
 
     def _read_frames(self) -> Iterator[Frame]:
         """Yield the frames of the running process."""
-        modes = self._opened.modes
         while True:
             frames: list[Frame] = []
             is_held = True
             with self._lock:
                 if self._closing.is_set():
                     return
-                report = self._process.receive_report(self._closing, REPORT_TIMEOUT_S)
+                report = self._process.receive_report(self._closing)
                 if isinstance(report, ImageArrived):
-                    take = self._assembler.add_color if report.sensor == Sensor.COLOR else self._assembler.add_depth
-                    frames = take(
-                        report.timestamp_us, report.number, self._process.view_image(report, modes[report.sensor])
-                    )
-                    self._process.release_slot(report)
+                    frames = self._process.read_image(report, self._assembler)
                 elif isinstance(report, ExposureLocked):
                     is_held = report.is_locked
                 elif report is None or report is Signal.ENDED:
@@ -186,7 +171,7 @@ class ProcessCamera:
         """
         start_s = time.monotonic()
         other = ""
-        self._plan = replace(self._plan, serial=_read_serial(self._opened))  # the same one, and no other
+        self._plan = replace(self._plan, serial=self._opened.settings.get("serial", ""))  # the same one, and no other
         while not self._closing.is_set():
             try:
                 with self._lock:
@@ -204,7 +189,7 @@ class ProcessCamera:
                     raise errors.CameraMismatch(_format_camera(self._opened), found)
                 self._opened = opened
                 away_s = time.monotonic() - self._last_frame_s
-                self._assembler.restart(_build_layout(opened), first.timestamp_us, round(away_s * 1e6))
+                self._assembler.restart(build_layout(opened), first.timestamp_us, round(away_s * 1e6))
                 self._frames_to_relock = SETTLE_FRAMES if self._is_exposure_locked else 0
                 return time.monotonic() - start_s
             except _RECOVERABLE_FAULTS as fault:
@@ -218,7 +203,7 @@ class ProcessCamera:
 
     def _receive_first_image(self) -> ImageArrived | None:
         """Return the first image after a restart, for its time only."""
-        while (report := self._process.receive_report(self._closing, REPORT_TIMEOUT_S)) is not None:
+        while (report := self._process.receive_report(self._closing)) is not None:
             if isinstance(report, ImageArrived):
                 self._process.release_slot(report)
                 return report
@@ -246,18 +231,15 @@ class ProcessCamera:
 
 
 def _format_camera(opened: DeviceOpened) -> str:
-    return f"{opened.settings.get('camera', 'camera')} {_read_serial(opened)}".strip()
+    return f"{opened.settings.get('camera', 'camera')} {opened.settings.get('serial', '')}".strip()
 
 
-def _read_serial(opened: DeviceOpened) -> str:
-    return opened.settings.get("serial", "")
-
-
-def _build_layout(opened: DeviceOpened) -> StreamLayout:
+def build_layout(opened: DeviceOpened) -> StreamLayout:
+    """Return the layout of an opened device's images. Raises :class:`CameraUnsuited` for sizes that do not match."""
     sizes = {sensor: (mode.width_px, mode.height_px) for sensor, mode in opened.modes.items()}
     layout = StreamLayout(
         sizes[Sensor.COLOR],
-        sizes[Sensor.DEPTH],
+        sizes.get(Sensor.DEPTH),
         Sensor.COLOR in opened.mirrored,
         Sensor.DEPTH in opened.mirrored,
         opened.depth_unit_m,

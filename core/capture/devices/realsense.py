@@ -15,21 +15,25 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.capture.devices.cameras import USB_3, CameraKind, check_firmware_and_usb, check_package
-from carpus.core.capture.devices.capture_child import (
+from carpus.core.capture.devices.cameras import (
+    USB_3,
+    CameraKind,
+    camera_open_error,
+    camera_unlisted_error,
+    check_firmware_and_usb,
+    check_package,
+    find_usb_cameras,
+)
+from carpus.core.capture.devices.capture_process import (
     FPS,
     POLL_MS,
     SIZE_PX,
     CameraConfig,
     CaptureChannel,
     DeviceOpened,
-    StreamWatchdog,
-    camera_open_error,
-    camera_unlisted_error,
 )
 from carpus.core.capture.devices.color_lock import ColorLock, ColorOptions
-from carpus.core.capture.devices.usb_devices import find_usb_cameras
-from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
+from carpus.core.capture.source import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.model import errors
 from carpus.core.model.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.model.phrase import phrase
@@ -50,11 +54,6 @@ def import_sdk() -> Any:
     except ImportError as cause:
         raise errors.DriverMissing(PACKAGE, str(cause)) from cause
     return pyrealsense2
-
-
-def load_library() -> None:
-    """Check that the library can be loaded; raises :class:`DriverMissing`."""
-    import_sdk()
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,24 +170,11 @@ def set_option(sensor: Any, option: Any, value: float) -> bool:
     return False
 
 
-class _RealSenseOptions(ColorOptions):
-    """Options of the sensor that sends colour."""
-
-    def __init__(self, rs: Any, streams: RealsenseStreams) -> None:
-        option = rs.option
-        self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
-        super().__init__(
-            (option.enable_auto_exposure, option.enable_auto_white_balance, option.exposure, option.white_balance),
-            streams.color.fps(),
-        )
-
-    def set(self, option: Any, value: float) -> bool:
-        return set_option(self._sensor, option, value)
-
-    def read(self, option: Any) -> tuple[float, Any] | None:
-        if not self._sensor.supports(option):
-            return None
-        return float(self._sensor.get_option(option)), self._sensor.get_option_range(option)
+def read_option(sensor: Any, option: Any) -> tuple[float, Any] | None:
+    """Return the value of an option and its range; None if the sensor has no such option."""
+    if not sensor.supports(option):
+        return None
+    return float(sensor.get_option(option)), sensor.get_option_range(option)
 
 
 def read_depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
@@ -275,13 +261,23 @@ def _serve_camera(rs: Any, channel: CaptureChannel, plan: CameraConfig) -> None:
     settings = describe_device(rs, device, streams) | configure(rs, streams)
     channel.retain(context, device)
     images = _RealSenseImages(rs, channel, streams, settings, drops_oldest=True)
-    lock = ColorLock(channel, _RealSenseOptions(rs, streams))
+    color = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
+    options = ColorOptions(
+        rs.option.enable_auto_exposure,
+        rs.option.enable_auto_white_balance,
+        rs.option.exposure,
+        rs.option.white_balance,
+        streams.color.fps(),
+        partial(set_option, color),
+        partial(read_option, color),
+    )
+    lock = ColorLock(channel, options)
 
-    def forward_images(watchdog: StreamWatchdog) -> None:
+    def forward_images() -> None:
         frame = images.forward()
         if frame is not None:
             sensor = Sensor.COLOR if _is_color(rs, frame) else Sensor.DEPTH
-            watchdog.reset(sensor)
+            channel.note_image(sensor)
             if sensor == Sensor.COLOR:
                 lock.add_frame(memoryview(frame.get_data()).cast("B"))
 
@@ -438,7 +434,7 @@ def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -
     return sensor.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else sensor
 
 
-check_driver = partial(check_package, phrase("RealSense driver"), PACKAGE, load_library)
+check_driver = partial(check_package, phrase("RealSense driver"), PACKAGE, import_sdk)
 KIND = CameraKind(
     title="Intel RealSense",
     models=MODELS,

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from io import FileIO
 from pathlib import Path
-from typing import Any, BinaryIO, Literal
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,7 @@ from carpus.core.capture.frame_assembly import (
     StreamLayout,
     camera_from_field_of_view,
 )
-from carpus.core.capture.source import NoticeHandler, SourceInfo, ignore_notice
-from carpus.core.capture.video_mode import PixelFormat, Sensor
+from carpus.core.capture.source import NoticeHandler, PixelFormat, Sensor, SourceInfo, ignore_notice
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
@@ -226,9 +225,8 @@ class _ContentsReader:
             raise self._damage_error("two streams of one name", record.position)
         if kind in _CODECS and codec not in _CODECS[kind]:
             shown = codec.decode("ascii", "replace")
-            raise errors.RecordingUnsupported(
-                self._path, phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name)
-            )
+            detail = phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name)
+            raise errors.RecordingUnsupported(self._path, detail)
         self._nodes[record.node] = _Node(NodeType(kind), codec) if kind in _CODECS else None
 
     def _set_property(self, node: _Node, record: _Record) -> None:
@@ -249,9 +247,8 @@ class _ContentsReader:
         if time_us > MAX_TIME_US:
             raise self._damage_error("a picture later than the recording's end", record.position)
         if time_us <= last_us:
-            raise errors.TimesUnordered(
-                self._path, phrase("{value} frame {number}", value=node.kind.name.lower(), number=number)
-            )
+            detail = phrase("{value} frame {number}", value=node.kind.name.lower(), number=number)
+            raise errors.TimesUnordered(self._path, detail)
         position = record.position + self._header.size + len(record.fields)
         node.images.append((number, time_us, position, record.payload_size))
 
@@ -282,10 +279,8 @@ class _ContentsReader:
             raise errors.RecordingUnsupported(self._path, phrase("cropped frames"))
         if pixel_format not in _FORMATS[node.kind]:
             name = next((each.name for each in PixelFormat if each == pixel_format), str(pixel_format))
-            is_depth = node.kind == NodeType.DEPTH
-            raise errors.RecordingUnsupported(
-                self._path, phrase("depth as {name}", name=name) if is_depth else phrase("colour as {name}", name=name)
-            )
+            as_color, as_depth = phrase("colour as {name}", name=name), phrase("depth as {name}", name=name)
+            raise errors.RecordingUnsupported(self._path, as_depth if node.kind == NodeType.DEPTH else as_color)
         view: tuple[float, float] | None = None
         if oni.FIELD_OF_VIEW in properties:
             across, down = struct.unpack("<dd", properties[oni.FIELD_OF_VIEW])
@@ -323,7 +318,6 @@ class OniSource:
         """Yield all frames from the first on; a pass in progress ends when another begins."""
         walk = self._current_pass = object()
         assembler = FrameAssembler(self._layout, self._period_us, FILE_PAIRING_LIMIT)
-        takes = {Sensor.COLOR: assembler.add_color, Sensor.DEPTH: assembler.add_depth}
         arrived: Counter[Sensor] = Counter()
         try:
             with self._path.open("rb") as file:
@@ -342,7 +336,8 @@ class OniSource:
                     picture = self._read_image(file, stream, place)
                     if picture is not None:
                         arrived[sensor] += 1
-                        yield from takes[sensor](int(stream.timestamp_us[place]), int(stream.number[place]), picture)
+                        time_us, number = int(stream.timestamp_us[place]), int(stream.number[place])
+                        yield from assembler.add(sensor, time_us, number, picture)
         except OSError as cause:
             raise errors.RecordingDamaged(self._path, cause.strerror or phrase("cannot be opened")) from cause
         yield from assembler.finish()
@@ -377,22 +372,20 @@ class OniSource:
     def _build_info(self, camera_info: CameraInfo | None, answer: bool | None) -> SourceInfo:
         contents, layout = self._contents, self._layout
         view = contents.color.field_of_view_rad or (contents.depth.field_of_view_rad if contents.depth else None)
-        camera = (
-            rescale_camera(camera_info.camera, layout.size_px)
-            if camera_info
-            else camera_from_field_of_view(layout.size_px, view)
-        )
+        if camera_info:
+            camera = rescale_camera(camera_info.camera, layout.size_px)
+        else:
+            camera = camera_from_field_of_view(layout.size_px, view)
         if camera is None:
             size = "{}x{}".format(*layout.size_px)
             if camera_info:
-                detail = (
-                    f"for pictures of {camera_info.camera.width_px}x{camera_info.camera.height_px}, these are {size}"
-                )
+                wanted = f"{camera_info.camera.width_px}x{camera_info.camera.height_px}"
+                detail = f"for pictures of {wanted}, these are {size}"
                 raise errors.CameraFileUnreadable(sidecar_path(self._path), detail)
             raise errors.RecordingUnsupported(self._path, phrase("no intrinsics for frames of {size}", size=size))
-        settings = {"format": f".oni {contents.version}", "color": _format_stream(contents, "color")}
+        settings = {"format": f".oni {contents.version}", "color": _format_stream(contents.color)}
         if contents.depth is not None:
-            settings["depth"] = _format_stream(contents, "depth")
+            settings["depth"] = _format_stream(contents.depth)
             settings["registered"] = self._resolve_registration(camera_info.registered if camera_info else None, answer)
         settings["mirrored"] = "turned back" if layout.color_mirrored else "no"
         if layout.format_enlargement:
@@ -428,7 +421,5 @@ def _build_layout(contents: OniContents, camera_info: CameraInfo | None) -> Stre
     return layout
 
 
-def _format_stream(contents: OniContents, name: Literal["color", "depth"]) -> str:
-    stream = contents.color if name == "color" else contents.depth
-    assert stream is not None
+def _format_stream(stream: OniStream) -> str:
     return f"{stream.width_px}x{stream.height_px} {stream.codec} {stream.fps} fps"

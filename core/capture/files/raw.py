@@ -26,6 +26,7 @@ from typing import BinaryIO
 import numpy as np
 
 from carpus.core.capture.files.image_codec import (
+    MAX_IMAGE_BYTES,
     TiledImage,
     decode_color,
     decode_depth,
@@ -53,7 +54,6 @@ _START = struct.Struct("<8sI")
 _RECORD = struct.Struct("<4sIdIIII")
 _CHECKSUM_START = 8
 SYNC_EVERY_S = 0.5
-MAX_IMAGE_BYTES = 1 << 27
 MAX_FRAMES = 1 << 24
 """Six days at 30 fps; a record with a larger number is damaged."""
 _RECORD_TAG = re.compile(b"HEAD|FRAM|DONE")
@@ -274,22 +274,13 @@ class RawRecording:
                     depth = TiledImage(self._path, pictures[entry.color_size :], _NO_DEPTH, decode_depth)
                 if color.size_px != size_px or (depth is not None and depth.size_px != size_px):
                     raise errors.FrameSizeChanged(self._path)
-                yield LazyFrame(
-                    index,
-                    entry.timestamp_s,
-                    color,
-                    depth,
-                    self._depth_unit_m,
-                    entry.dropped_before + entry.number - number,
-                )
+                missing = entry.dropped_before + entry.number - number
+                yield LazyFrame(index, entry.timestamp_s, color, depth, self._depth_unit_m, missing)
                 index, number, last_s = index + 1, entry.number + 1, entry.timestamp_s
         lost = max(left_out, self._count - index)
         if lost:
-            self._notice(
-                errors.DamagedFramesExcluded(
-                    self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count)
-                )
-            )
+            detail = phrase("{lost} of {count} frames", lost=lost, count=self._count)
+            self._notice(errors.DamagedFramesExcluded(self._path, detail))
         if self._surplus_bytes:
             detail = phrase("{count} bytes after the end of the recording", count=self._surplus_bytes)
             self._notice(errors.RecordingDamaged(self._path, detail))
@@ -337,12 +328,9 @@ def _build_index(
         raise errors.RecordingUnreadable(path, phrase("not a raw recording"))
     version = _START.unpack(start)[1]
     if version != VERSION:
-        raise errors.RecordingUnreadable(
-            path,
-            phrase(
-                "format version {version}, but this version of Carpus reads {newest}", version=version, newest=VERSION
-            ),
-        )
+        versions = {"version": version, "newest": VERSION}
+        detail = phrase("format version {version}, but this version of Carpus reads {newest}", **versions)
+        raise errors.RecordingUnreadable(path, detail)
     head: _RecordEntry | None = None
     entries: list[_RecordEntry] = []
     for record in _scan_records(file, size):

@@ -10,12 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus.core.capture.devices.cameras import require_package
-from carpus.core.capture.devices.capture_child import DeviceOpened, ImageArrived, Signal
-from carpus.core.capture.devices.capture_process import REPORT_TIMEOUT_S, CaptureProcess
+from carpus.core.capture.devices.capture_process import CaptureProcess, DeviceOpened, ImageArrived, Signal
+from carpus.core.capture.devices.process_camera import build_layout
 from carpus.core.capture.devices.realsense import PACKAGE, find_sensor, serve
-from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, StreamLayout, camera_from_lens
-from carpus.core.capture.source import SourceInfo
-from carpus.core.capture.video_mode import Sensor
+from carpus.core.capture.frame_assembly import FILE_PAIRING_LIMIT, FrameAssembler, camera_from_lens
+from carpus.core.capture.source import Sensor, SourceInfo
 from carpus.core.model.errors import RecordingDamaged
 from carpus.core.model.types import Frame
 
@@ -60,26 +59,16 @@ class RealSenseRecording:
         process = self._process
         if opened is None or process is None:
             return
-        color = opened.modes[Sensor.COLOR]
-        size_px = color.width_px, color.height_px
-        layout = StreamLayout(
-            size_px, size_px if Sensor.DEPTH in opened.modes else None, depth_unit_m=opened.depth_unit_m
-        )
-        assembler = FrameAssembler(layout, 1e6 / color.fps, FILE_PAIRING_LIMIT)
+        assembler = FrameAssembler(build_layout(opened), 1e6 / opened.modes[Sensor.COLOR].fps, FILE_PAIRING_LIMIT)
         try:
             while True:
                 with self._lock:
                     if process is not self._process:
                         return
-                    report = process.receive_report(self._closing, REPORT_TIMEOUT_S)
+                    report = process.receive_report(self._closing)
                     if report is None:
                         return
-                    frames: list[Frame] = []
-                    if isinstance(report, ImageArrived):
-                        take = assembler.add_color if report.sensor == Sensor.COLOR else assembler.add_depth
-                        pixels = process.view_image(report, opened.modes[report.sensor])
-                        frames = take(report.timestamp_us, report.number, pixels)
-                        process.release_slot(report)
+                    frames = process.read_image(report, assembler) if isinstance(report, ImageArrived) else []
                 if report is Signal.ENDED:
                     yield from assembler.finish()
                     return

@@ -7,7 +7,7 @@ import math
 import os
 import shutil
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
@@ -46,7 +46,7 @@ RECORDED_REMARK, RECORDING_ID_REMARK = "# carpus recorded ", "# carpus recording
 _Entry = tuple[float, Path, str]
 """Time, image file and its place in the list."""
 _DecodedFrame = tuple[Frame | None, bool]
-_READING_THREADS = 2
+_READING_THREADS, _READ_AHEAD = 2, 8
 _FPS_OF_ONE_PICTURE = 30.0
 
 
@@ -65,14 +65,8 @@ class TumFolder:
 
     Opening reads the lists, checks that all images exist, and decodes the first; the others are decoded as they come.
 
-    Parameters
-    ----------
-    requires_depth : bool
-        A folder without usable depth is a fault.
-    read_ahead : int
-        Number of frames decoded in advance by two threads.
-    skip_damaged : bool
-        Skip missing or damaged images (but the first colour image) and notify :class:`DamagedFramesExcluded`.
+    With ``requires_depth`` a folder without usable depth is a fault. With ``skip_damaged`` missing or damaged images
+    (but the first colour image) are skipped and notified by :class:`DamagedFramesExcluded`.
     """
 
     def __init__(
@@ -80,7 +74,6 @@ class TumFolder:
         folder: Path,
         *,
         requires_depth: bool = True,
-        read_ahead: int = 0,
         skip_damaged: bool = False,
         notice: NoticeHandler = ignore_notice,
     ) -> None:
@@ -88,7 +81,6 @@ class TumFolder:
             raise errors.RecordingMissing(folder)
         if not folder.is_dir():
             raise errors.RecordingUnreadable(folder, phrase("not a folder"))
-        self._read_ahead = read_ahead
         self._folder, self._skip_damaged, self._notice = folder, skip_damaged, notice
         color, color_gone = _check_files(_read_list(folder / COLOR_LIST, notice), skip_damaged, first=True)
         if not color:
@@ -105,10 +97,8 @@ class TumFolder:
         partner = pair_by_time(color_s, np.array([time_s for time_s, _ in depth]))
         if requires_depth and not any(index is not None for index in partner):
             limit = f"{PAIRING_LIMIT_S * 1000.0:.0f}"
-            raise errors.DepthMissing(
-                folder,
-                phrase("no depth frame within {pairing_limit_s} ms of a colour frame", pairing_limit_s=limit),
-            )
+            detail = phrase("no depth frame within {pairing_limit_s} ms of a colour frame", pairing_limit_s=limit)
+            raise errors.DepthMissing(folder, detail)
         self.stored_frames = tuple(
             StoredFrame(time_s, path, None if index is None else depth[index][1], dropped)
             for (time_s, path), index, dropped in zip(color, partner, count_dropped_frames(color_s), strict=True)
@@ -144,19 +134,10 @@ class TumFolder:
         )
 
     def frames(self) -> Iterator[Frame]:
-        """Yield the frames in order; may be repeated."""
-        if self._read_ahead > 0:
-            return self._number_frames(self._prefetch_frames(self._read_ahead))
-        return self._number_frames(self._load_frame(index) for index in range(len(self.stored_frames)))
-
-    def close(self) -> None:
-        """Do nothing: no file is open between two frames."""
-
-    def _number_frames(self, decoded: Iterator[_DecodedFrame]) -> Iterator[Frame]:
-        """Yield the decoded frames, numbered; skipped ones count as missing before the next."""
+        """Yield the frames in order, numbered; may be repeated. Skipped ones count as missing before the next."""
         number, color_lost, depth_lost, missing = 0, 0, 0, 0
-        with closing(decoded) as loaded:  # type: ignore[type-var]
-            for frame, depth_is_lost in loaded:
+        with closing(self._prefetch_frames()) as decoded:
+            for frame, depth_is_lost in decoded:
                 depth_lost += depth_is_lost
                 if frame is None:
                     color_lost += 1
@@ -167,26 +148,27 @@ class TumFolder:
         if color_lost or depth_lost:
             self._notice(errors.DamagedFramesExcluded(self._folder, _format_counts(color_lost, depth_lost, "damaged")))
 
+    def close(self) -> None:
+        """Do nothing: no file is open between two frames."""
+
     def _load_frame(self, index: int) -> _DecodedFrame:
         """Return a frame, or None if its colour image is skipped, and whether its depth image was."""
-        if not self._skip_damaged:
-            return self._read_frame(index, with_depth=True), False
-        try:
-            return self._read_frame(index, with_depth=True), False
-        except errors.FrameDamaged:
-            pass
-        try:
-            return self._read_frame(index, with_depth=False), True
-        except errors.FrameDamaged:
-            return None, False
+        for with_depth in (True, False):
+            try:
+                return self._read_frame(index, with_depth=with_depth), not with_depth
+            except errors.FrameDamaged:
+                if not self._skip_damaged:
+                    raise
+        return None, False
 
-    def _prefetch_frames(self, bound: int) -> Iterator[_DecodedFrame]:
+    def _prefetch_frames(self) -> Generator[_DecodedFrame]:
+        """Yield the decoded frames, of which two threads decode some in advance."""
         pending: deque[Future[_DecodedFrame]] = deque()
         with ThreadPoolExecutor(_READING_THREADS, thread_name_prefix="read-ahead") as pool:
             try:
                 for index in range(len(self.stored_frames)):
                     pending.append(pool.submit(self._load_frame, index))
-                    if len(pending) > bound:
+                    if len(pending) > _READ_AHEAD:
                         yield pending.popleft().result()
                 while pending:
                     yield pending.popleft().result()
@@ -198,24 +180,17 @@ class TumFolder:
         stored = self.stored_frames[index]
         color = read_color(stored.color)
         self._check_size(stored.color, color.shape)
-        depth = None if stored.depth is None or not with_depth else read_depth(stored.depth)
-        if stored.depth is not None and depth is not None:
+        depth = None
+        if stored.depth is not None and with_depth:
+            depth = read_depth(stored.depth)
             self._check_size(stored.depth, depth.shape)
         return Frame(index, stored.timestamp_s, color, depth, self._depth_unit_m, stored.dropped_before)
 
     def _check_size(self, path: Path, shape: tuple[int, ...]) -> None:
         width, height = self._size
         if shape[:2] != (height, width):
-            raise errors.FrameSizeChanged(
-                path,
-                phrase(
-                    "{shape} x {shape2} pixels, {width} x {height} before",
-                    shape=shape[1],
-                    shape2=shape[0],
-                    width=width,
-                    height=height,
-                ),
-            )
+            sizes = {"shape": shape[1], "shape2": shape[0], "width": width, "height": height}
+            raise errors.FrameSizeChanged(path, phrase("{shape} x {shape2} pixels, {width} x {height} before", **sizes))
 
 
 def pair_by_time(color_s: FloatArray, depth_s: FloatArray) -> list[int | None]:
@@ -294,15 +269,9 @@ def _read_list(path: Path, notice: NoticeHandler) -> list[_Entry]:
             repeated += 1
             continue
         if entries and time_s < entries[-1][0]:
-            raise errors.TimesUnordered(
-                path,
-                phrase(
-                    "line {number}: {time_s} s after {earlier} s",
-                    number=number,
-                    time_s=f"{time_s:.6f}",
-                    earlier=f"{entries[-1][0]:.6f}",
-                ),
-            )
+            times = {"time_s": f"{time_s:.6f}", "earlier": f"{entries[-1][0]:.6f}"}
+            detail = phrase("line {number}: {time_s} s after {earlier} s", number=number, **times)
+            raise errors.TimesUnordered(path, detail)
         entries.append((time_s, picture, f"{path.name} line {number}"))
     if repeated:
         notice(errors.RepeatedTimesExcluded(path, str(repeated)))
@@ -338,22 +307,15 @@ def _parse_entry(path: Path, number: int, content: str) -> tuple[float, Path]:
         time_s = float(time_text)
     except ValueError:
         time_s = math.nan
+    line = {"number": number, "content": f"{content[:60]!r}"}
     if not math.isfinite(time_s) or not names:
-        raise errors.RecordingUnreadable(
-            path,
-            phrase(
-                "line {number} is not a time and a file name: {content}", number=number, content=f"{content[:60]!r}"
-            ),
-        )
+        detail = phrase("line {number} is not a time and a file name: {content}", **line)
+        raise errors.RecordingUnreadable(path, detail)
     on_windows = PureWindowsPath(names[0])
     inside = PurePath(on_windows.as_posix())
     if inside.is_absolute() or on_windows.drive or on_windows.root or ".." in inside.parts or "\0" in names[0]:
-        raise errors.RecordingUnreadable(
-            path,
-            phrase(
-                "line {number} names a file outside the folder: {content}", number=number, content=f"{content[:60]!r}"
-            ),
-        )
+        detail = phrase("line {number} names a file outside the folder: {content}", **line)
+        raise errors.RecordingUnreadable(path, detail)
     return time_s, path.parent / inside
 
 
@@ -363,22 +325,15 @@ def _load_camera(folder: Path, width_px: int, height_px: int) -> CameraInfo:
     if not path.exists():
         camera = rescale_camera(DEFAULT_CAMERA, (width_px, height_px))
         if camera is None:
-            raise errors.CameraFileUnreadable(
-                path, phrase("missing, and there is no default camera for frames of {size}", size=size)
-            )
+            detail = phrase("missing, and there is no default camera for frames of {size}", size=size)
+            raise errors.CameraFileUnreadable(path, detail)
         return CameraInfo(camera)
     info = read_camera_info(path)
     camera = info.camera
     if (camera.width_px, camera.height_px) != (width_px, height_px):
-        raise errors.CameraFileUnreadable(
-            path,
-            phrase(
-                "for {width_px} x {height_px} pixels, the frames have {size}",
-                width_px=camera.width_px,
-                height_px=camera.height_px,
-                size=size,
-            ),
-        )
+        expected = {"width_px": camera.width_px, "height_px": camera.height_px, "size": size}
+        detail = phrase("for {width_px} x {height_px} pixels, the frames have {size}", **expected)
+        raise errors.CameraFileUnreadable(path, detail)
     if info.mirrored or info.registered is False:
         wrong = "mirrored: true" if info.mirrored else "registered: false"
         raise errors.CameraFileUnreadable(path, phrase("{wrong}, not supported for an image folder", wrong=wrong))
