@@ -24,7 +24,7 @@ from carpus.core.calibration.candidates import find_marker_candidates
 from carpus.core.calibration.clicks_file import read_clicks, write_clicks
 from carpus.core.calibration.label_proposal import propose_labels
 from carpus.core.calibration.result import Clicks
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.formats.export import FORMATS, ExportRequest, ExportResult, export_sessions
 from carpus.core.formats.output_files import MACHINE_DIALECT
 from carpus.core.model.camera import DEFAULT_CAMERA, Camera

@@ -35,7 +35,7 @@ NO_CHOICE = {
     "limits and layouts of files and tables": {
         "detection/appearance": "_RANGES",
         "detection/detector": "_SIMILARITY_BINS",
-        "detection/stencil": "WEDGES",
+        "detection/blobs": "WEDGES",
         "tracking/filter/settings": "_LIMITS",
     },
     "axes and signs": {

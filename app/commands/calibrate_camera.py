@@ -20,7 +20,7 @@ from carpus.app.command_line import (
 )
 
 if TYPE_CHECKING:
-    from carpus.core.calibration.camera.board_views import ViewCollector
+    from carpus.core.calibration.camera.board import ViewCollector
     from carpus.core.capture.source import FrameSource
 
 EXAMPLE = """carpus calibrate-camera --board board.pdf
@@ -76,8 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.app.sources import open_board
-    from carpus.core.calibration.camera.board import CHESSBOARD
-    from carpus.core.calibration.camera.board_views import ViewCollector
+    from carpus.core.calibration.camera.board import CHESSBOARD, ViewCollector
     from carpus.core.calibration.camera.calibrate import (
         calibrate_camera,
         format_calibration,

@@ -93,7 +93,7 @@ class HandCalibrator:
         if not self._held_frames:
             return None
         frame, detection = self._held_frames[0], self._settings.detection
-        radius_px = estimate_radius_px(frame, pixel, self._camera, detection)
+        radius_px = float(estimate_radius_px(frame, pixel[None], self._camera, detection)[0])
         found = find_nearest_blob(self._candidates, pixel, radius_px, detection)
         if not len(found):
             found = find_marker_at_click(frame, pixel, self._camera, detection)

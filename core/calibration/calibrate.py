@@ -28,16 +28,16 @@ from carpus.core.calibration.neutral_depth import (
     estimate_depth_offset_px,
 )
 from carpus.core.calibration.neutral_pose import TOWARDS_CAMERA, estimate_neutral_pose
-from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.detection.appearance import (
     MAX_CLICK_DISTANCE_RADII,
+    DetectionSettings,
     MarkerAppearance,
     estimate_radius_px,
     learn_appearance,
     to_hsv,
 )
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.assignment import assign_nearest
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
@@ -151,19 +151,11 @@ def calibrate_hand(
 ) -> CalibrationOutcome:
     """Find the clicked markers, average them while the hand is still, measure and check the palm.
 
-    Parameters
-    ----------
-    clicks
-        labelled pixels on the first frame
-    frames
-        the clicked frame, then those that follow it
-    camera, settings, detection
-        camera model, limits of the calibration, settings of the detector
-    start_angles_rad
-        (3,) deviation, flexion and pronosupination of the neutral pose; None for zero
+    ``frames`` are the clicked one and those that follow it; ``start_angles_rad`` (3,) deviation, flexion and
+    pronosupination of the neutral pose, None for zero.
     """
     first = frames[0]
-    radius_px = np.array([estimate_radius_px(first, click, camera, detection) for click in clicks.pixel])
+    radius_px = estimate_radius_px(first, clicks.pixel, camera, detection)
     margin_px = 3.0 * float(radius_px.max()) + 12.0
     left, top = (int(value) for value in clicks.pixel.min(axis=0) - margin_px)
     right, bottom = (int(value) + 1 for value in clicks.pixel.max(axis=0) + margin_px)
@@ -234,7 +226,7 @@ def _check_unlabelled_spots(
     odd = find_odd_marker(clicks.side, plan(found_px[palm]), plan(spare_px))
     if odd is None or not np.isfinite(depth_m):
         return hand
-    kind: FindingKind = "other_spot" if odd.is_spot_better else "spare_spot" if odd.spot >= 0 else "no_palm"
+    kind = "other_spot" if odd.is_spot_better else "spare_spot" if odd.spot >= 0 else "no_palm"
     spot_px = tuple(map(float, spare_px[odd.spot])) if odd.spot >= 0 else ()
     marker_names = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
     return _add_finding(hand, CalibrationFinding(kind, marker_names, spot_px=spot_px))
@@ -312,14 +304,8 @@ def capture_neutral_pose(
 ) -> NeutralCapture:
     """Collect the markers from the first frame on until the hand moves.
 
-    Parameters
-    ----------
-    detections
-        time and blobs of each frame, in order
-    blob_index
-        (M,) blob of each marker in the first frame
-    settings
-        limits of the calibration
+    ``detections`` are time and blobs of each frame, in order; ``blob_index`` (M,) is the blob of each marker in the
+    first one.
     """
     frames = iter(detections)
     start_s, blobs = next(frames)

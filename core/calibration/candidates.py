@@ -10,10 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.detection import appearance
-from carpus.core.detection.appearance import MAX_CLICK_DISTANCE_RADII, estimate_radius_px, learn_appearance
-from carpus.core.detection.components import find_components
+from carpus.core.detection.appearance import (
+    MAX_CLICK_DISTANCE_RADII,
+    DetectionSettings,
+    disc_mask,
+    estimate_radius_px,
+    learn_appearance,
+)
+from carpus.core.detection.blobs import find_components
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, Detections, FloatArray, Frame
 
@@ -74,7 +79,9 @@ def is_paper(
     Dark cloth falls into specks whose hue is blue by chance; they have hardly any chroma.
     """
     chroma = np.zeros(len(pixel))
-    for i, (centre, radius_px) in enumerate(zip(pixel, _marker_radii_px(frame, pixel, camera, settings), strict=True)):
+    for i, (centre, radius_px) in enumerate(
+        zip(pixel, estimate_radius_px(frame, pixel, camera, settings), strict=True)
+    ):
         others = pixel[(np.abs(pixel - centre).max(axis=1) < 4.0 * radius_px) & (np.arange(len(pixel)) != i)]
         chroma[i] = _chroma(frame.color_rgb, hsv, centre, radius_px, others)
     is_coloured = chroma >= MIN_CHROMA
@@ -90,12 +97,11 @@ def _chroma(
     left, top = (max(0, round(float(value)) - half) for value in centre_px)
     rows, columns = slice(top, top + 2 * half + 1), slice(left, left + 2 * half + 1)
     rgb, part = color_rgb[rows, columns].astype(np.float64), hsv[rows, columns]
-    v, u = np.ogrid[: part.shape[0], : part.shape[1]]
-    squared = (u + left - centre_px[0]) ** 2 + (v + top - centre_px[1]) ** 2
-    spot = squared <= (0.7 * radius_px) ** 2
-    ring = (squared > (1.6 * radius_px) ** 2) & (squared < (2.6 * radius_px) ** 2)
+    shape, centre = part.shape[:2], centre_px - (left, top)
+    spot = disc_mask(shape, centre, 0.7 * radius_px)
+    ring = disc_mask(shape, centre, 2.6 * radius_px) & ~disc_mask(shape, centre, 1.6 * radius_px)
     for other in neighbours_px:  # the two markers of a fingertip nearly touch
-        ring &= (u + left - other[0]) ** 2 + (v + top - other[1]) ** 2 > (1.3 * radius_px) ** 2
+        ring &= ~disc_mask(shape, other - (left, top), 1.3 * radius_px)
     if not spot.any() or not ring.any():
         return 0.0
     step = np.linalg.norm(rgb[ring] - np.median(rgb[spot], axis=0), axis=1)
@@ -114,7 +120,7 @@ def _find_marker_sized_spots(
     mask: Any, min_area_ratio: float, frame: Frame, camera: Camera, settings: DetectionSettings
 ) -> FloatArray:
     """Return the centres (B, 2) of the mask's components that have about a marker's area."""
-    found = find_components((mask > 0).astype(np.uint8), lambda at: _marker_radii_px(frame, at, camera, settings))
+    found = find_components((mask > 0).astype(np.uint8), lambda at: estimate_radius_px(frame, at, camera, settings))
     full = np.pi * found.radius_px**2
     return found.centre_px[(found.area_px > min_area_ratio * full) & (found.area_px < 2.0 * full)]
 
@@ -124,7 +130,7 @@ def find_marker_at_click(frame: Frame, pixel: FloatArray, camera: Camera, settin
 
     Only a small window is searched. A spot that looks like its surroundings is no marker.
     """
-    radius_px = estimate_radius_px(frame, pixel, camera, settings)
+    radius_px = float(estimate_radius_px(frame, pixel[None], camera, settings)[0])
     half = CLICK_WINDOW_RADII * radius_px
     height, width = frame.color_rgb.shape[:2]
     left, top = (int(max(0.0, value - half)) for value in pixel)
@@ -138,9 +144,8 @@ def find_marker_at_click(frame: Frame, pixel: FloatArray, camera: Camera, settin
     if not np.isfinite(centre).all():
         return Detections.none()
     hsv = appearance.to_hsv(color)
-    v, u = np.ogrid[: color.shape[0], : color.shape[1]]
-    squared = (u - centre[0, 0]) ** 2 + (v - centre[0, 1]) ** 2
-    ring = (squared > (1.5 * radius_px) ** 2) & (squared < (3.0 * radius_px) ** 2)
+    shape = color.shape[:2]
+    ring = disc_mask(shape, centre[0], 3.0 * radius_px) & ~disc_mask(shape, centre[0], 1.5 * radius_px)
     around = appearance.compute_histogram(hsv, ring, smooth_bins=1.2).ravel()
     similarity = appearance.compute_bhattacharyya(marker_appearance.paper_histogram.ravel(), around)
     if similarity > MAX_BACKGROUND_SIMILARITY:
@@ -160,7 +165,3 @@ def find_nearest_blob(
     if not distance.size or float(distance.min()) > MAX_CLICK_DISTANCE_RADII * radius_px:
         return Detections.none()
     return blobs.subset(np.arange(distance.size) == distance.argmin())
-
-
-def _marker_radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
-    return np.array([estimate_radius_px(frame, at, camera, settings) for at in centre_px])

@@ -29,18 +29,8 @@ def estimate_neutral_pose(
     """Estimate rotation (3, 3) and translation (3,) of g_w0c from pixels and depths.
 
     Minimises (15), weighted by the standard deviations; the linear step (19), (20) is repeated until it converges. The
-    orientation is updated on the right, R Exp(d).
-
-    Parameters
-    ----------
-    camera
-        camera model
-    marker_w0_m
-        (M, 3) markers in W0
-    pixel, depth_m
-        (M, 2) undistorted, (M,) with NaN where unknown
-    rotation_w0_cam, translation_w0_cam_m
-        start, (3, 3) and (3,)
+    orientation is updated on the right, R Exp(d). The markers are (M, 3) in W0, ``pixel`` (M, 2) undistorted,
+    ``depth_m`` (M,) with NaN where unknown; a rotation and translation to start from are given.
     """
     rotation, translation = rotation_w0_cam, translation_w0_cam_m
     weight = np.concatenate((np.full(pixel.size, 1.0 / PIXEL_SD_PX), np.full(depth_m.size, 1.0 / DEPTH_SD_M)))

@@ -5,35 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 from carpus.core.model.fault_text import MessageText, Translate, join_marker_names, join_sentences, marker_name
 from carpus.core.model.hand.dorsal_surface import DorsalSurface
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.types import FloatArray, Side
-
-FindingKind = Literal[
-    "click_on_no_marker",
-    "two_clicks_on_one",
-    "swapped",
-    "misnamed",
-    "shifted",
-    "wrong_side",
-    "no_depth",
-    "residual",
-    "hand_length",
-    "other_length",
-    "tilt",
-    "distance",
-    "moved",
-    "few_frames",
-    "depth_off",
-    "other_spot",
-    "spare_spot",
-    "near_spot",
-    "no_palm",
-]
 
 ALL_STRAIGHT = (True, True, True, True, True)
 """Thumb to little finger; assumed unless a person says otherwise."""
@@ -56,13 +33,13 @@ class Clicks:
 
 @dataclass(frozen=True, slots=True)
 class CalibrationFinding:
-    """Problem of a calibration: ``value`` in ``unit`` against ``limit``.
+    """Problem of a calibration, of a kind in ``FINDING_TEXTS``: ``value`` in ``unit`` against ``limit``.
 
     ``markers`` of "swapped": those of one finger, then as many of the other; of "shifted": each label is followed by
     the right one.
     """
 
-    kind: FindingKind
+    kind: str
     markers: tuple[str, ...] = ()
     value: float = float("nan")
     limit: float = float("nan")

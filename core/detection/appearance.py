@@ -12,9 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.compiled.blobs import BlobWindows, mask_paper
-from carpus.core.detection.components import Components, find_components
-from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.stencil import get_stencil
+from carpus.core.detection.blobs import Components, find_components, get_stencil
 from carpus.core.model.assignment import assign_nearest
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, FloatArray, Frame
@@ -70,6 +68,29 @@ def compute_bhattacharyya(a: FloatArray, b: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, slots=True)
+class DetectionSettings:
+    """Settings of the detection.
+
+    Attributes
+    ----------
+    marker_radius_m : float
+        Radius of the paper markers.
+    min_skin_share : float
+        Share of a blob's rim that must be skin or paper, so that the blob lies on a hand.
+    min_area_ratio, max_area_ratio : float
+        Limits of a blob's area over that of a marker at its depth, relative to the ratios learnt at calibration.
+    max_blobs : int
+        Blobs returned of one frame; the largest are kept.
+    """
+
+    marker_radius_m: float = 0.006
+    min_skin_share: float = 0.25
+    min_area_ratio: float = 0.12
+    max_area_ratio: float = 2.2
+    max_blobs: int = 48
+
+
+@dataclass(frozen=True, slots=True)
 class MarkerAppearance:
     """Colours of paper and skin and the discs' size.
 
@@ -96,16 +117,20 @@ def disc_mask(shape: tuple[int, ...], centre_px: FloatArray, radius_px: float) -
     return np.asarray((u - centre_px[0]) ** 2 + (v - centre_px[1]) ** 2 <= radius_px**2)
 
 
-def estimate_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> float:
-    """Return the radius of a disc facing the camera at the depth about ``pixel``; a default without depth."""
+def estimate_radius_px(frame: Frame, pixel: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
+    """Return the radius (M,) of discs facing the camera at the depth about pixels (M, 2); a default without depth."""
+    radius_px = np.full(len(pixel), DEFAULT_RADIUS_PX)
     if frame.depth_raw is None:
-        return DEFAULT_RADIUS_PX
-    near = disc_mask(frame.depth_raw.shape, pixel, 12.0)
-    depth_raw = frame.depth_raw[near]
-    depth_raw = depth_raw[depth_raw > 0]
-    if depth_raw.size == 0:
-        return DEFAULT_RADIUS_PX
-    return float(camera.fx_px * settings.marker_radius_m / (float(np.median(depth_raw)) * frame.depth_unit_m))
+        return radius_px
+    half = 12
+    for i, place in enumerate(pixel):
+        left, top = np.maximum(np.floor(place).astype(int) - half, 0)
+        window = frame.depth_raw[top : top + 2 * half + 2, left : left + 2 * half + 2]
+        depth_raw = window[disc_mask(window.shape, place - (left, top), half) & (window > 0)]
+        if depth_raw.size:
+            depth_m = float(np.median(depth_raw)) * frame.depth_unit_m
+            radius_px[i] = camera.fx_px * settings.marker_radius_m / depth_m
+    return radius_px
 
 
 def learn_appearance(
@@ -125,7 +150,7 @@ def learn_appearance(
     """
     hsv = to_hsv(frame.color_rgb)
     shape = hsv.shape[:2]
-    radius_px = np.array([estimate_radius_px(frame, click, camera, settings) for click in click_px])
+    radius_px = estimate_radius_px(frame, click_px, camera, settings)
     is_paper, ring = np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool)
     for click, radius in zip(click_px, radius_px, strict=True):
         is_paper |= disc_mask(shape, click, 0.6 * radius)

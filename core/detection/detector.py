@@ -13,15 +13,14 @@ from numpy.typing import NDArray
 from carpus.core.compiled.blobs import BlobWindows
 from carpus.core.detection.appearance import (
     BINS,
+    DetectionSettings,
     MarkerAppearance,
     backproject_histogram,
     build_paper_mask,
     classify_paper_colors,
     to_hsv,
 )
-from carpus.core.detection.components import find_components
-from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.stencil import get_stencil
+from carpus.core.detection.blobs import find_components, get_stencil
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, DepthImage, Detections, FloatArray, Frame, Region
 
@@ -61,17 +60,7 @@ class Detector:
         self._max_area = settings.max_area_ratio * appearance.max_area_share
 
     def compute_search_region(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
-        """Return the rectangle that holds all predicted discs with their uncertainty.
-
-        Parameters
-        ----------
-        pixel : (M, 2)
-            Predicted discs.
-        covariance_px2 : (M, 2, 2)
-            Covariance of that.
-        depth_m : (M,)
-            Predicted depths.
-        """
+        """Return the rectangle that holds all predicted discs (M, 2), of covariance (M, 2, 2) and at depths (M,)."""
         disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, REGION_SD
         variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
         reach = np.minimum(region_sd * np.sqrt(variance), MAX_SEARCH_RADIUS_PX)

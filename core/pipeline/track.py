@@ -28,8 +28,8 @@ from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.capture.files.image_codec import decode_color, decode_depth
 from carpus.core.capture.files.raw import LazyFrame, RawRecording
 from carpus.core.capture.source import FrameSource, RecordingDate, SourceInfo, compute_recording_id, find_recording_date
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.surface_samples import compute_read_region, sample_fingers, sample_surface
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import ASSUMED

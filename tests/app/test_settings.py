@@ -30,7 +30,7 @@ from carpus.app.settings import (
     settings_folder,
     with_data_folder,
 )
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.model.errors import SettingsInvalid
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.setting_values import FORMER_NAMES, settable_names

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from carpus import __version__
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.pipeline.track import NeutralNoise, TrackSettings, format_parameters
 from carpus.core.session.reader import read_session

@@ -10,8 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, CalibrationSettings, calibrate_hand
 from carpus.core.calibration.result import Clicks
-from carpus.core.detection.appearance import disc_mask
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings, disc_mask
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import FloatArray, Frame, Side
 from tests.detection.pictures import CAMERA, Extra, Look, depth_picture, frame, picture

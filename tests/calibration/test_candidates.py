@@ -11,7 +11,7 @@ import pytest
 from carpus.core.calibration.calibrate import CalibrationSettings, calibrate_hand
 from carpus.core.calibration.candidates import find_marker_at_click, find_marker_candidates, find_nearest_blob
 from carpus.core.calibration.label_proposal import propose_labels
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import FloatArray, Frame, Side

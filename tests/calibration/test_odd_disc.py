@@ -9,7 +9,7 @@ import pytest
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, CalibrationSettings, calibrate_hand
 from carpus.core.calibration.label_checks import average_palm, find_odd_marker
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.model.hand.protocols import PALM_MARKERS
 from carpus.core.model.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, click_discs, make_frames

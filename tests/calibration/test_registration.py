@@ -9,8 +9,7 @@ import pytest
 
 from carpus.core.calibration.calibrate import CalibrationSettings, calibrate_hand
 from carpus.core.calibration.neutral_depth import estimate_depth_offset_px
-from carpus.core.detection.appearance import learn_appearance
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings, learn_appearance
 from carpus.core.model.types import FloatArray, Frame
 from carpus.core.simulation.recording import SimulatedRecording, sample_clicks
 from carpus.core.simulation.spec import RecordingSpec

@@ -16,9 +16,8 @@ import cv2
 import numpy as np
 
 from carpus.core.compiled import association, blobs, digit_images, digits, mixture, palm, samples, surface
-from carpus.core.detection.components import Components, find_components
+from carpus.core.detection.blobs import Components, Stencil, find_components, get_stencil
 from carpus.core.detection.detector import ColorTable
-from carpus.core.detection.stencil import Stencil, get_stencil
 from carpus.core.model import so3
 from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.model.types import FloatArray, SurfaceSamples

@@ -8,7 +8,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from carpus.core.detection.components import find_components
+from carpus.core.detection.blobs import find_components
 from tests.compiled.steps import (
     PLACE,
     draw_mask,

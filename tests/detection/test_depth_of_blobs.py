@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from carpus.core.detection.appearance import disc_mask, learn_appearance
+from carpus.core.detection.appearance import DetectionSettings, disc_mask, learn_appearance
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.types import Detections, FloatArray
 from tests.detection.pictures import CAMERA, DISTANCE_M, PALM_PX, RADIUS_PX, Look, depth_picture, frame, picture
 

@@ -12,15 +12,15 @@ import pytest
 from numpy.typing import NDArray
 
 from carpus.core.detection.appearance import (
+    DetectionSettings,
     MarkerAppearance,
     build_paper_mask,
     classify_paper_colors,
     learn_appearance,
     to_hsv,
 )
-from carpus.core.detection.components import find_components
+from carpus.core.detection.blobs import find_components
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import Detections, FloatArray, Frame, Region
 from tests.detection.pictures import (

@@ -7,8 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
-from carpus.core.calibration.camera.board_views import FIELDS, ViewCollector, ViewCoverage
+from carpus.core.calibration.camera.board import CHESSBOARD, FIELDS, ViewCollector, ViewCoverage, create_board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, DepthCheck, Intrinsics
 from carpus.core.calibration.card.card import DIMENSIONS, CardReading
 from carpus.core.calibration.card.checks import CardCheck, CheckStatus

@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.calibration.camera.board import CHESSBOARD, Board
-from carpus.core.calibration.camera.board_views import (
+from carpus.core.calibration.camera.board import (
+    CHESSBOARD,
     FIELDS,
     MIN_FIELDS,
     MIN_TILT_SIDES,
     TILT_SIDES,
+    Board,
     RejectReason,
     ViewCoverage,
     side_name,

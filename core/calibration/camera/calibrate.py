@@ -16,7 +16,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.board_views import (
+from carpus.core.calibration.camera.board import (
     MIN_DISTANCE_RATIO,
     BoardView,
     ViewCoverage,
@@ -204,16 +204,7 @@ class Intrinsics:
 
 
 def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> Intrinsics:
-    """Estimate intrinsics and distortion (k1, k2, p1, p2) from the views.
-
-    Raises :class:`BoardNotVisible` without a board, :class:`BoardViewsTooSimilar` with too few or similar views,
-    :class:`BoardUnfit` if the corners are not those of a flat board.
-    """
-    if not views:
-        raise BoardNotVisible(subject, phrase("in none of the images"))
-    missing = assess_views(views, width_px, height_px).missing_text
-    if missing:
-        raise BoardViewsTooSimilar(subject, missing)
+    """Estimate intrinsics and distortion (k1, k2, p1, p2) from the views. Raises as :func:`calibrate_camera`."""
     fit, view_error_px = _fit_intrinsics(views, range(len(views)), width_px, height_px)
     # Views with a blurred image or a bent board are excluded.
     kept = np.flatnonzero(view_error_px <= _OUTLIER_FACTOR * float(np.median(view_error_px))).tolist()
@@ -275,9 +266,17 @@ class CameraCalibration:
 
 
 def calibrate_camera(views: Sequence[BoardView], previous_camera: Camera, subject: str) -> CameraCalibration:
-    """Calibrate from the collected views. Raises as :func:`solve_intrinsics`."""
-    intrinsics = solve_intrinsics(views, previous_camera.width_px, previous_camera.height_px, subject)
+    """Calibrate from the collected views.
+
+    Raises :class:`BoardNotVisible` without a board, :class:`BoardViewsTooSimilar` with too few or similar views,
+    :class:`BoardUnfit` if the corners are not those of a flat board.
+    """
+    if not views:
+        raise BoardNotVisible(subject, phrase("in none of the images"))
     coverage = assess_views(views, previous_camera.width_px, previous_camera.height_px)
+    if coverage.missing_text:
+        raise BoardViewsTooSimilar(subject, coverage.missing_text)
+    intrinsics = solve_intrinsics(views, previous_camera.width_px, previous_camera.height_px, subject)
     depth = estimate_depth_error(views, intrinsics, previous_camera.sensor)
     return CameraCalibration(previous_camera, intrinsics, depth, coverage, views[0].detected.board.name())
 

@@ -26,7 +26,7 @@ from carpus.core.model.dates import is_moment
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.installation import Finding, State
 from carpus.core.model.names import CAMERAS_FOLDER, file_stem
-from carpus.core.platform.durable import open_private, write_fault
+from carpus.core.platform.durable import make_private_folder, open_private, write_fault
 
 CHECKS_SUFFIX = ".checks.jsonl"
 MAX_CHECK_AGE_DAYS = 7.0
@@ -90,8 +90,8 @@ def add_check(path: Path, check: CardCheck) -> None:
         "sd": reading.sd.tolist(), "calibrated": check.calibrated_at, "most_angle_deg": reading.max_angle_error_deg,
         "most_length_mm": reading.max_length_error_mm,
     }  # fmt: skip
+    make_private_folder(path.parent)
     try:
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         with open(path, "ab", opener=open_private) as file:
             is_torn = file.tell() > 0 and path.read_bytes()[-1:] != b"\n"
             file.write(("\n" if is_torn else "").encode() + json.dumps(content).encode() + b"\n")

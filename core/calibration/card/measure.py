@@ -20,7 +20,7 @@ from carpus.core.calibration.card.card import (
     disc_positions_m,
     measure_dimensions,
 )
-from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.model.camera import Camera
 from carpus.core.model.errors import CardNotVisible
 from carpus.core.model.phrase import phrase

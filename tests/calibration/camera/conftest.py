@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
-from carpus.core.calibration.camera.board_views import ViewCollector
+from carpus.core.calibration.camera.board import CHESSBOARD, ViewCollector, create_board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.types import Frame

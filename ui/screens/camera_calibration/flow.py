@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime
 
-from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
-from carpus.core.calibration.camera.board_views import ViewCollector
+from carpus.core.calibration.camera.board import CHESSBOARD, ViewCollector, create_board_sheet
 from carpus.core.calibration.camera.calibrate import calibrate_camera, save_calibration, to_stored_calibration
 from carpus.core.model.errors import BoardNotVisible, BoardViewsTooSimilar
 from carpus.core.model.types import Frame

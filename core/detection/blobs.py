@@ -1,16 +1,17 @@
-"""Pixels of a window around a blob: its core, its rim, its neighbourhood.
-
-All of it depends on the disc's radius alone and is computed once. The pixels of a window are ordered from its centre
-outwards, so that each of these is a run of them.
-"""
+"""Blobs of paper colour, touching discs separated, and the window of pixels about a blob: core, rim, neighbourhood."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from carpus.core.compiled.blobs import find_blobs
+from carpus.core.model.types import ByteImage, FloatArray
 
 WEDGES = 8
 CORE_RADII = 0.62  # up to so many disc radii a window has the paper's own colour
@@ -21,9 +22,45 @@ EDGE_PX = 6  # how far about an edge a sensor's readings are of neither side, by
 
 
 @dataclass(frozen=True, slots=True)
-class Stencil:
-    """A round window of P pixels about a blob, ordered by their distance from its centre.
+class Components:
+    """Blobs of a mask.
 
+    ``labels`` (H, W), 0 where there is no blob; per blob its ``label`` (B,), ``centre_px`` (B, 2) and ``area_px`` (B,)
+    of whole pixels, and the ``radius_px`` (B,) of a disc at its depth.
+    """
+
+    labels: NDArray[np.int32]
+    label: NDArray[np.int32]
+    centre_px: FloatArray
+    area_px: FloatArray
+    radius_px: FloatArray
+
+    def subset(self, indices: NDArray[np.int64]) -> Components:
+        """Return the blobs at these indices."""
+        return Components(
+            self.labels, self.label[indices], self.centre_px[indices], self.area_px[indices], self.radius_px[indices]
+        )
+
+
+def find_components(
+    mask: ByteImage,
+    estimate_radius: Callable[[FloatArray], FloatArray],
+    min_share: float = 0.0,
+    max_share: float = math.inf,
+) -> Components:
+    """Find the blobs of a mask, touching discs separated.
+
+    ``estimate_radius`` gives the radius (N,) in pixels of a disc facing the camera at pixels (N, 2). A blob has
+    ``min_share`` to ``max_share`` of such a disc's area.
+    """
+    return Components(*find_blobs(mask, estimate_radius, min_share, max_share))
+
+
+@dataclass(frozen=True, slots=True)
+class Stencil:
+    """A round window of P pixels about a blob, which depends on the disc's radius alone.
+
+    The pixels are ordered from the centre outwards, so that core, neighbourhood and rim are each a run of them.
     ``offset`` (P, 2) v and u from the centre; ``core`` and ``near`` the first so many pixels: those of the disc's own
     colour, those within the sensor's window (at least the core); ``reach`` (P,) those that may belong to the disc;
     ``rim`` the R pixels around it, ``wedge`` (R, WEDGES) 1 for those that are seen in each of eight overlapping quarter
