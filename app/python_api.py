@@ -39,7 +39,7 @@ from carpus.core.research.agreement.agreement_files import compare_files
 from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S, Comparison
 from carpus.core.research.agreement.reference import ANGLE_NAMES
 from carpus.core.research.papers.hand_model import PaperSettings
-from carpus.core.research.papers.track_settings import PaperTrackSettings
+from carpus.core.research.papers.tracker import PaperTrackSettings
 from carpus.core.simulation import recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth

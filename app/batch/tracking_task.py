@@ -24,7 +24,7 @@ from carpus.core.pipeline.stored_settings import list_differences
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
 from carpus.core.platform.durable import write_fault
 from carpus.core.platform.version import __version__
-from carpus.core.research.papers.track_settings import settings_from_json
+from carpus.core.research.papers.tracker import settings_from_json
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.results.session_summary import exercise_warnings
 from carpus.core.session.reader import read_session

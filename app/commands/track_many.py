@@ -26,7 +26,7 @@ from carpus.core.model.names import describe_known_names, normalize_name
 from carpus.core.model.rounding import format_rounded
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.platform.durable import write_fault
-from carpus.core.research.papers.track_settings import settings_from_json
+from carpus.core.research.papers.tracker import settings_from_json
 from carpus.core.session.reader import read_outline
 
 MANIFEST_COLUMNS = ("recording", "subject", "hand", "exercise", "clicks", "label")

@@ -34,7 +34,7 @@ from carpus.core.pipeline.stored_settings import StoredSettings, list_difference
 from carpus.core.pipeline.track import LIVE_LABEL, TrackReport, TrackSettings, retrack_session, track_recording
 from carpus.core.platform.version import __version__
 from carpus.core.research.papers.hand_model import PaperSettings
-from carpus.core.research.papers.track_settings import PaperTrackSettings, settings_from_json
+from carpus.core.research.papers.tracker import PaperTrackSettings, settings_from_json
 from carpus.core.session.reader import read_outline, read_session
 
 LISTENER_TIMEOUT_S = 20.0

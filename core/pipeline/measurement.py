@@ -50,8 +50,7 @@ from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import READING_PROCESS
 from carpus.core.session.values import Motion, new_header
-from carpus.core.tracking.smoother.smoother_record import FilterSteps
-from carpus.core.tracking.tracker import Tracker
+from carpus.core.tracking.tracker import FilterSteps, Tracker
 
 log = logging.getLogger(__name__)
 

@@ -25,8 +25,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.platform.child_process import KILL_TIMEOUT_S, ChildProcess, lower_priority
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.tracking.filter.settings import TrackerSettings
-from carpus.core.tracking.smoother.smoother_record import FilterSteps
-from carpus.core.tracking.tracker import Tracker
+from carpus.core.tracking.tracker import FilterSteps, Tracker
 
 CHUNK_S, LAG_S = 8.0, 3.0
 """Length of a chunk, and of the data after it that are needed first. In simulated recordings of 40 s this comes as near

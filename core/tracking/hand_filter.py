@@ -31,9 +31,7 @@ from carpus.core.tracking.association.reacquire import (
     find_palm,
     is_other_hand,
 )
-from carpus.core.tracking.association.track_manager import COLLINEAR_RMS_M, MIN_PALM_MARKERS
-from carpus.core.tracking.digits.digit_readout import base_from_estimate
-from carpus.core.tracking.digits.digit_update import DigitFrame, DigitPosterior
+from carpus.core.tracking.association.track_manager import MIN_PALM_MARKERS
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, JointState, palm_calibration
 from carpus.core.tracking.filter.mixture_filter import ModeMixture
 from carpus.core.tracking.filter.motion import (
@@ -76,7 +74,7 @@ from carpus.core.tracking.filter.soft_tissue import (
     stationary_covariance,
 )
 from carpus.core.tracking.filter.surface_fit import SurfaceMeasurement, fit_surface, surface_calibration_covariance
-from carpus.core.tracking.finger_filter import FingerFilter
+from carpus.core.tracking.finger_filter import DigitFrame, DigitPosterior, FingerFilter
 from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.smoother.palm_smoother import FilterStep
 
@@ -241,9 +239,10 @@ class HandFilter:
         unassigned[palm.assigned[is_assigned]] = False
         fingers = None
         if self.fingers is not None and predicted.digits is not None:
-            base = base_from_estimate(estimate, self.view, self.readout)
-            frame = DigitFrame(scan.dt_s, base, blobs, scan.ideal.area_px, unassigned)
-            fingers = self.fingers.updater.update(predicted.digits, frame, scan.ideal.fingers)
+            frame = DigitFrame(
+                scan.dt_s, self.readout.compute_base(estimate, self.view), blobs, scan.ideal.area_px, unassigned
+            )
+            fingers = self.fingers.update(predicted.digits, frame, scan.ideal.fingers)
             is_finger[fingers.blob[fingers.blob >= 0]] = True
         seen_count = int(np.count_nonzero(is_assigned))
         return Posterior(predicted, palm, estimate, mixture, seen_count, fingers, unassigned & ~is_finger, is_finger)
@@ -268,7 +267,7 @@ class HandFilter:
         return posterior.palm.by_surface or self._find_unobserved_turns(posterior) is None
 
     def _find_unobserved_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
-        return find_unobserved_turns(self.view.palm_m[posterior.palm.assigned >= 0], COLLINEAR_RMS_M)
+        return find_unobserved_turns(self.view.palm_m[posterior.palm.assigned >= 0])
 
     def learn(self, posterior: Posterior, dt_s: float) -> None:
         """Store what outlives a lost track: each disc's noise, and the palm's shape."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,8 +43,8 @@ from carpus.core.tracking.filter.predicted_measurement import MarkerOrder, Predi
 from carpus.core.tracking.filter.readout import Readout, build_lost_frame, nan_kinematics
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan, undistort_detections
-from carpus.core.tracking.smoother.palm_smoother import FilterStep
-from carpus.core.tracking.smoother.smoother_record import FilterSteps, SmootherModel, SmootherRecord
+from carpus.core.tracking.smoother.finger_smoother import FingerStart, FingerStep, SmoothedFingers, smooth_fingers
+from carpus.core.tracking.smoother.palm_smoother import FilterStep, smooth_palm
 
 
 class TrackedFrameBuilder:
@@ -158,6 +159,87 @@ class TrackedFrameBuilder:
         return np.asarray(self._direct_counts / (possible * len(self._recent)))
 
 
+@dataclass(frozen=True, slots=True)
+class FilterSteps:
+    """Some frames in a row: steps of palm and fingers, and the fingers before the first.
+
+    ``finger_start`` is None at the neutral pose.
+    """
+
+    steps: Sequence[FilterStep]
+    fingers: Sequence[FingerStep | None]
+    finger_start: FingerStart | None
+
+
+class SmootherRecord:
+    """Grows by a step a frame; smooths what it holds, discards it, and hands it over.
+
+    ``make_readout`` returns a fresh readout; ``lost_state`` is the state of which nothing is known.
+    """
+
+    def __init__(self, palm: HandFilter, make_readout: Callable[[], Readout], lost_state: KinematicState) -> None:
+        self._motion, self._view = palm.motion, palm.view
+        self._model = None if palm.fingers is None else palm.fingers.model
+        self._make_readout, self._lost_state = make_readout, lost_state
+        self.history: list[FilterStep] = []
+        self.finger_history: list[FingerStep | None] = []
+        self.smoothed_digits: SmoothedFingers | None = None
+        self._finger_start: FingerStart | None = None
+
+    def append(self, step: FilterStep, fingers: FingerStep | None) -> None:
+        """Add one frame."""
+        self.history.append(step)
+        self.finger_history.append(fingers)
+
+    def smooth(self) -> list[KinematicState]:
+        """Return every frame so far smoothed by all the others. Tracking may go on meanwhile."""
+        readout, lost = self._make_readout(), self._lost_state
+        estimates = smooth_palm(list(self.history), self._motion)
+        moments = [lost if estimate is None else readout.read_kinematics(estimate) for estimate in estimates]
+        if self._model is None:
+            return moments
+        bases = [None if estimate is None else readout.compute_base(estimate, self._view) for estimate in estimates]
+        self.smoothed_digits = smooth_fingers(
+            self._model, self.finger_history[: len(estimates)], bases, self._finger_start
+        )
+        return [
+            lost if joints is None or estimate is None else readout.with_joints(moment, joints, estimate)
+            for moment, joints, estimate in zip(moments, self.smoothed_digits.joint_states, estimates, strict=True)
+        ]
+
+    def discard_before(self, time_s: float) -> None:
+        """Discard the frames before that time, which were just smoothed."""
+        count = sum(step.timestamp_s < time_s for step in self.history)
+        if self.smoothed_digits is not None and self._model is not None and count:
+            self._finger_start = self.smoothed_digits.start_for_next(count, self._model)
+        self._drop(count)
+
+    def pop_steps(self, finger_start: FingerStart | None) -> FilterSteps:
+        """Remove and return all frames, for the record of another tracker of the same hand.
+
+        ``finger_start`` is the estimate of the fingers now, for the frames to come.
+        """
+        kept = FilterSteps(list(self.history), list(self.finger_history), self._finger_start)
+        if self.history:
+            self._finger_start = finger_start
+        self._drop(len(self.history))
+        return kept
+
+    def append_steps(self, steps: FilterSteps) -> None:
+        """Add the steps of another record; it goes on from those added before."""
+        if not self.history:
+            self._finger_start = steps.finger_start
+        self.finger_history += steps.fingers
+        self.history += steps.steps
+
+    def _drop(self, count: int) -> None:
+        if not count:
+            return
+        self.smoothed_digits = None
+        del self.finger_history[:count]
+        del self.history[:count]
+
+
 class Tracker:
     """Tracks one calibrated hand through frames in order of time.
 
@@ -178,13 +260,7 @@ class Tracker:
         self._frame_builder = TrackedFrameBuilder(protocol, self._filter.order, model, self._filter.readout)
         palm = palm_calibration(calibration)
         self.record = SmootherRecord(
-            SmootherModel(
-                self._filter.motion,
-                self._filter.view,
-                model,
-                lambda: Readout(palm, camera, settings.marker_radius_m),
-                self._frame_builder.lost_state,
-            )
+            self._filter, lambda: Readout(palm, camera, settings.marker_radius_m), self._frame_builder.lost_state
         )
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:

@@ -14,8 +14,8 @@ import numpy as np
 from carpus.core.model.hand import clinical_angles
 from carpus.core.model.types import FloatArray, Side, TrackStatus
 from carpus.core.tracking.association.palm_association import Measurements, update_palm
-from carpus.core.tracking.filter.mixture_filter import ModeMixture, propagate_mixture
-from carpus.core.tracking.filter.motion import RATE_MEMORY_S, PalmMotion, fading_factors, palm_transition
+from carpus.core.tracking.filter.mixture_filter import ModeMixture
+from carpus.core.tracking.filter.motion import RATE_MEMORY_S, PalmMotion, fading_factors, predict_palm
 from carpus.core.tracking.filter.palm_state import SIZE, TURN, PalmEstimate, PalmView, initial_estimate, reset_error
 from carpus.core.tracking.filter.predicted_measurement import predict_measurement
 from carpus.core.tracking.filter.settings import TrackerSettings
@@ -45,9 +45,7 @@ def run_informed(scenario: Scenario, sequence: MeasurementSequence, begin_s: flo
     times = truth.timestamp_s
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
-        step = palm_transition(estimate.rate_rad_s, motion, dt_s)
-        mixture = propagate_mixture(mixture, step, estimate.value, step.switch)
-        ahead_of = replace(step.propagate(estimate, dt_s), covariance=mixture.merge()[1][0])
+        ahead_of, mixture = predict_palm(estimate, mixture, motion, dt_s)
         ahead = predict_measurement(ahead_of, mixture, view, settings.scaling)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
         blobs = Measurements(seen, np.broadcast_to(variance, seen.shape))

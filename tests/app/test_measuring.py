@@ -24,8 +24,7 @@ from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from carpus.core.tracking.filter.settings import TrackerSettings
-from carpus.core.tracking.smoother.smoother_record import FilterSteps
-from carpus.core.tracking.tracker import Tracker
+from carpus.core.tracking.tracker import FilterSteps, Tracker
 from tests.pipeline.live_fakes import wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration

@@ -23,13 +23,11 @@ from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, Depth
 from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.association.association import (
-    DEPTH_OUTLIER_PROBABILITY,
     LOG_IMPOSSIBLE,
     log_densities,
 )
 from carpus.core.tracking.association.palm_association import Measurements
 from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
-from carpus.core.tracking.digits.digit_readout import base_from_estimate
 from carpus.core.tracking.filter.digit_filter import (
     OBSERVED,
     digit_sigma_weights,
@@ -42,10 +40,10 @@ from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
     Transition,
+    UnscentedParameters,
+    compute_weights,
     mode_transition_matrix,
     partial_update_shares,
-    predict_mixture,
-    propagate_mixture,
     update_mixture,
 )
 from carpus.core.tracking.filter.motion import MotionNoise, PalmMotion
@@ -60,7 +58,6 @@ from carpus.core.tracking.filter.soft_tissue import (
     single_moving_mode,
 )
 from carpus.core.tracking.filter.surface_fit import SurfaceSettings
-from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights
 from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
 from tests.simulation.measurements import measurement_sequence
@@ -135,8 +132,8 @@ def draw_mixture_steps() -> Steps:
         )  # fmt: skip
         out |= {
             f"merge {size}": (mixture.merge_modes, (some,)),
-            f"predict {size}": (predict_mixture, (some, forward, noise, switch)),
-            f"propagate {size}": (propagate_mixture, (some, step, rng.normal(size=n), switch)),
+            f"predict {size}": (mixture.predict_modes, (some, forward, noise, switch)),
+            f"propagate {size}": (mixture.predict_palm_modes, (some, step, rng.normal(size=n), switch)),
         }
         line = draw_linearisation(rng, chains, n, m)
         for unseen in (0.0, 0.5, 1.0):
@@ -157,7 +154,7 @@ def draw_mixture_steps() -> Steps:
 def draw_association_steps() -> Steps:
     """Six markers and blobs near them, some without a depth, some with another's."""
     settings, out = AssociationSettings(), {}
-    rest = log_densities(3e5, DEPTH_OUTLIER_PROBABILITY, settings), settings.gate_sd**2, LOG_IMPOSSIBLE
+    rest = log_densities(3e5, settings), settings.gate_sd**2, LOG_IMPOSSIBLE
     for count in (0, 1, 25):
         rng, scale = np.random.default_rng(4), np.array([1.0, 1.0, 0.003])
         covariance = draw_covariances(rng, 6, 3) * scale[:, None] * scale
@@ -333,7 +330,7 @@ def draw_digit_steps() -> Steps:
         known = calibrate_sequence(measurement_sequence(recorded))
         fingers, view = FingerFilter(known, CAMERA, settings), HandFilter(known, CAMERA, settings).view
         estimate = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
-        base = base_from_estimate(estimate, view, Readout(palm_calibration(known), view.camera, 6e-3))
+        base = Readout(palm_calibration(known), view.camera, 6e-3).compute_base(estimate, view)
         mean, covariance = fingers.model.neutral_mixture().merge()
         if is_lost:
             mean, covariance = fingers.model.diffuse_mixture(mean, covariance).merge()

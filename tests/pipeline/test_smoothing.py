@@ -23,8 +23,7 @@ from carpus.core.platform.child_process import NICENESS
 from carpus.core.session.values import Motion, stack_states
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
-from carpus.core.tracking.smoother.smoother_record import FilterSteps
-from carpus.core.tracking.tracker import Tracker
+from carpus.core.tracking.tracker import FilterSteps, Tracker
 from tests.accuracy.carpus import measure_still_hand
 from tests.pipeline.live_fakes import wait_until
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import permutations, product
 
 import numpy as np
@@ -13,6 +14,7 @@ from scipy.stats import chi2, multivariate_normal
 
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.association.association import (
+    DEPTH_OUTLIER_PROBABILITY,
     LOG_IMPOSSIBLE,
     assign_blobs,
     associate_jointly,
@@ -22,7 +24,6 @@ from carpus.core.tracking.association.association import (
 from carpus.core.tracking.filter.settings import AssociationSettings
 
 RES_PX2 = 640.0 * 480.0
-OUTLIER = 1e-3
 SETTINGS = AssociationSettings(prior_marker=0.85, prior_clutter=0.15, gate_sd=5.0, depth_range_m=0.5)
 
 
@@ -92,8 +93,8 @@ def get_marker_block(covariance: FloatArray) -> FloatArray:
 def test_log_odds_give_equation_12(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed)
     own = get_marker_block(covariance)
-    odds = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
-    found = association_posterior(odds.value)
+    odds, with_depth = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, SETTINGS)
+    found = association_posterior(odds)
     assert np.allclose(found.sum(axis=1), 1.0, atol=1e-12)
     for i, blob in enumerate(blobs):
         deep = np.isfinite(blob[2])
@@ -105,10 +106,10 @@ def test_log_odds_give_equation_12(seed: int) -> None:
             off = blob - there
             flat = multivariate_normal(there[:2], s[:2, :2]).pdf(blob[:2])
             inside = off[:2] @ np.linalg.solve(s[:2, :2], off[:2]) <= SETTINGS.gate_sd**2
-            ways = [flat * inside * (OUTLIER / SETTINGS.depth_range_m if deep else 1.0)]
+            ways = [flat * inside * (DEPTH_OUTLIER_PROBABILITY / SETTINGS.depth_range_m if deep else 1.0)]
             if deep and off @ np.linalg.solve(s, off) <= SETTINGS.gate_sd**2:
                 ways.append(multivariate_normal(there, s).pdf(blob))
-            assert odds.with_depth[j, i] == (len(ways) == 2 and ways[1] >= ways[0]) or not inside
+            assert with_depth[j, i] == (len(ways) == 2 and ways[1] >= ways[0]) or not inside
             weight.append(SETTINGS.prior_marker * max(ways))
         assert np.allclose(found[i], np.array(weight) / np.sum(weight), atol=1e-9)
 
@@ -118,9 +119,9 @@ def test_assign_blobs_beyond_the_gate_is_never_associated(off_sd: float, taken: 
     """One by one and jointly: by its density alone a blob 5.2 standard deviations off a sure place would be its."""
     mean, covariance = np.array([300.0, 200.0, 0.7]), np.diag([0.01, 0.01, 1e-8])
     blob, noise = np.array([[300.0 + 0.1 * off_sd, 200.0, np.nan]]), np.array([[1e-9, 1e-9, 1e-12]])
-    odds = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert assign_blobs(odds.value).tolist() == [taken]
-    jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
+    odds, _ = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, SETTINGS)
+    assert assign_blobs(odds).tolist() == [taken]
+    jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, SETTINGS)
     assert jointly.assigned.tolist() == [taken]
 
 
@@ -139,7 +140,7 @@ def joint_score(
             continue
         deep = bool(np.isfinite(blobs[blob, 2]))
         extra += np.log(SETTINGS.prior_marker / SETTINGS.prior_clutter * RES_PX2)
-        extra += np.log(SETTINGS.depth_range_m) if with_depth else (np.log(OUTLIER) if deep else 0.0)
+        extra += np.log(SETTINGS.depth_range_m) if with_depth else (np.log(DEPTH_OUTLIER_PROBABILITY) if deep else 0.0)
         for axis in range(3 if with_depth else 2):
             rows.append(3 * marker + axis)
             values.append(blobs[blob, axis])
@@ -199,7 +200,7 @@ def as_key(assigned: NDArray[np.int64], with_depth: NDArray[np.bool_]) -> tuple[
 @pytest.mark.parametrize("seed", range(15))
 def test_associate_jointly_wide_beam_is_the_best_of_all(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed, clutter=seed % 3)
-    found = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS, beam=10_000)
+    found = associate_jointly(mean, covariance, blobs, noise, RES_PX2, replace(SETTINGS, beam_width=10_000))
     scores = all_scores(mean, covariance, blobs, noise)
     key = as_key(found.assigned, found.with_depth)
     used = found.assigned[found.assigned >= 0]

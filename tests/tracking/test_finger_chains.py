@@ -26,7 +26,7 @@ from carpus.core.tracking.filter.hand_geometry import (
     N_SLOTS,
     JointAngleMap,
 )
-from carpus.core.tracking.filter.unscented import UnscentedParameters
+from carpus.core.tracking.filter.mixture_filter import UnscentedParameters
 
 DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
 

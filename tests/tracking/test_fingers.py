@@ -6,19 +6,20 @@ import functools
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
+from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.association.palm_association import measurements_from_blobs
-from carpus.core.tracking.digits.digit_readout import base_from_estimate
-from carpus.core.tracking.digits.digit_update import DigitFrame, DigitPosterior
-from carpus.core.tracking.filter.digit_filter import ANATOMY
+from carpus.core.tracking.digits.finger_model import FingerModel
+from carpus.core.tracking.filter.digit_filter import ANATOMY, DIGIT_SIZE
 from carpus.core.tracking.filter.hand_geometry import palm_calibration
 from carpus.core.tracking.filter.palm_state import InitialSd, initial_estimate
 from carpus.core.tracking.filter.readout import Readout
 from carpus.core.tracking.filter.settings import TrackerSettings
-from carpus.core.tracking.finger_filter import FingerFilter
+from carpus.core.tracking.finger_filter import DigitFrame, DigitPosterior, FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.tracking.sequences import build_tracker, calibrate_sequence
@@ -66,12 +67,12 @@ def update_digits_once(place_m: float, off_px: tuple[float, float]) -> tuple[Dig
     fingers = FingerFilter(known, seen.truth.camera, settings)
     view = HandFilter(known, seen.truth.camera, settings).view
     estimate = initial_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
-    base = base_from_estimate(estimate, view, Readout(palm_calibration(known), view.camera, 6e-3))
+    base = Readout(palm_calibration(known), view.camera, 6e-3).compute_base(estimate, view)
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurements_from_blobs(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
     picture = DigitFrame(0.0, base, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
-    trial = fingers.updater.update(fingers.predict(0.0), picture)
+    trial = fingers.update(fingers.predict(0.0), picture)
     return trial, trial.update.update.mixture.merge()[0] - fingers.model.neutral_mixture().merge()[0]
 
 
@@ -123,3 +124,13 @@ def test_fingers_labelled_marker_restarts_its_digit_alone() -> None:
     is_index = np.array(["2_" in name for name in HAND21.joint_names()])
     assert wider[is_index].any()
     assert not wider[~is_index].any()
+
+
+@pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
+def test_fingers_digit_30_degrees_beyond_is_misread(beyond_deg: float, is_misread: bool) -> None:
+    model = FingerModel(calibrate_sequence(sequence()), sequence().truth.camera, TrackerSettings())
+    bent = model.neutral_mixture()
+    bent.mean[2, :, 2] = HARD_LIMITS_RAD["PIP3_flexion"][1] + np.radians(beyond_deg)
+    bent.covariance[2] = 1e-8 * np.eye(DIGIT_SIZE)
+    _, _, misread = model.apply_joint_limits(bent, bent)
+    assert misread.tolist() == [False, False, is_misread, False, False]

@@ -8,12 +8,10 @@ import numpy as np
 import pytest
 
 from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
-from carpus.core.tracking.digits.finger_model import MAX_BEYOND_RAD
 from carpus.core.tracking.filter.digit_filter import ANATOMY
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.filter.joint_limits import (
     LIMIT_SD_RAD,
-    apply_and_check_limits,
     apply_soft_limits,
 )
 from carpus.core.tracking.filter.mixture_filter import ModeMixture
@@ -56,10 +54,3 @@ def test_joint_limits_moments_match_sampling() -> None:
     angle, after_sd = apply_to_angle(mean, sd)
     assert angle == pytest.approx(float(kept.mean()), abs=0.1)
     assert after_sd == pytest.approx(float(kept.std()), rel=0.02)
-
-
-@pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
-def test_joint_limits_digit_30_degrees_beyond_is_misread(beyond_deg: float, is_misread: bool) -> None:
-    surely = estimate(math.degrees(HARD_LIMITS_RAD["PIP2_flexion"][1]) + beyond_deg, 0.01)
-    _, _, misread = apply_and_check_limits(surely, MAX_BEYOND_RAD)
-    assert misread.tolist() == [False, is_misread, False, False, False]

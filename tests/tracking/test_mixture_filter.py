@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carpus.core.compiled.mixture import predict_modes
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
     mode_transition_matrix,
     partial_update_shares,
-    predict_mixture,
     update_mixture,
 )
 from carpus.core.tracking.smoother.palm_smoother import SmootherTransition, smooth_backwards
@@ -145,7 +145,7 @@ def test_smoother_equals_batch_least_squares() -> None:
     mixture = ModeMixture(start[None, None], spread[None, None], np.ones((1, 1)))
     for k in range(steps):
         if k:
-            mixture = predict_mixture(mixture, forward[None], noise[None, None])
+            mixture = ModeMixture(*predict_modes(mixture, forward[None], noise[None, None], None))
         mixture = update_mixture(mixture, linearised, seen[None, k], r[None]).mixture
         filtered.append(mixture)
     trajectory = LinearTrajectory(filtered, forward, noise, [0.1] * (steps - 1) + [None])

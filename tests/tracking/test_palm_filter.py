@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
+from carpus.core.compiled.mixture import predict_palm_modes
 from carpus.core.model import so3
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, propagate_mixture
+from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, UnscentedParameters
 from carpus.core.tracking.filter.motion import (
     MotionNoise,
     PalmMotion,
@@ -44,7 +45,6 @@ from carpus.core.tracking.filter.soft_tissue import (
     single_moving_mode,
     stationary_covariance,
 )
-from carpus.core.tracking.filter.unscented import UnscentedParameters
 from carpus.core.tracking.smoother.palm_smoother import FilterStep, smooth_palm
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
@@ -108,7 +108,7 @@ def test_palm_prediction_covariance_is_independent_of_frame_rate() -> None:
         found = palm_transition(np.zeros(3), RESTING, 1.0 / steps)
         mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), start[None], RESTING.modes)
         for _ in range(steps):
-            mixture = propagate_mixture(mixture, found, np.zeros(SIZE))
+            mixture = ModeMixture(*predict_palm_modes(mixture, found, np.zeros(SIZE), None))
         ends.append(mixture.covariance)
     assert np.allclose(ends[0], ends[2], rtol=1e-6, atol=1e-12)
     assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
@@ -121,7 +121,7 @@ def test_soft_tissue_reaches_its_stationary_covariance() -> None:
     found = palm_transition(np.zeros(3), MOTION, 0.1)
     mixture = ModeMixture.from_gaussian(np.zeros((1, SIZE)), np.zeros((1, SIZE, SIZE)), 2)
     for _ in range(600):
-        mixture = propagate_mixture(mixture, found, np.zeros(SIZE))
+        mixture = ModeMixture(*predict_palm_modes(mixture, found, np.zeros(SIZE), None))
     now = mixture.covariance[0, 0]
     assert np.allclose(now[np.ix_(tissue, tissue)], stationary[np.ix_(tissue, tissue)], rtol=1e-3, atol=1e-12)
     sd_mm = 1e3 * np.sqrt(np.diag(stationary[SKIN, SKIN])).reshape(6, 3)
@@ -229,9 +229,9 @@ PALM_M = np.array(
 
 
 def test_unobserved_turns_knuckles_alone_hide_turn_about_their_line() -> None:
-    assert find_unobserved_turns(PALM_M, 0.008) is None
-    assert find_unobserved_turns(PALM_M[[0, 2, 3]], 0.008) is None
-    unseen = find_unobserved_turns(PALM_M[2:], 0.008)
+    assert find_unobserved_turns(PALM_M) is None
+    assert find_unobserved_turns(PALM_M[[0, 2, 3]]) is None
+    unseen = find_unobserved_turns(PALM_M[2:])
     assert unseen is not None
     np.testing.assert_allclose(unseen @ unseen, unseen, atol=1e-12)
     linearised = PALM_M[5, :2] - PALM_M[2, :2]

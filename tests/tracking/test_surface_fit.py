@@ -12,7 +12,13 @@ from carpus.core.model import so3
 from carpus.core.model.hand.dorsal_surface import DorsalSurface, fit_dorsal_surface
 from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.tracking.association.palm_association import Measurements, update_palm
-from carpus.core.tracking.filter.mixture_filter import ModeMixture, Update, update_mixture
+from carpus.core.tracking.filter.mixture_filter import (
+    Linearisation,
+    ModeMixture,
+    UnscentedParameters,
+    Update,
+    update_mixture,
+)
 from carpus.core.tracking.filter.palm_state import (
     POSITION,
     RELIEF,
@@ -31,7 +37,6 @@ from carpus.core.tracking.filter.surface_fit import (
     fit_surface,
     surface_calibration_covariance,
 )
-from carpus.core.tracking.filter.unscented import UnscentedParameters
 from tests.suites import few
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
@@ -120,7 +125,8 @@ def test_surface_fit_wrong_pose_measures_its_error(surface: DorsalSurface, seed:
 def update_by_surface(mixture: ModeMixture, found: SurfaceMeasurement) -> Update:
     """The palm's modes corrected by the surface alone."""
     partial = shape_partial_update(0.1)
-    return update_mixture(mixture, found.to_linearisation(), found.value[None], NO_NOISE, partial=partial)
+    line = Linearisation(np.zeros((1, 3)), found.slope[None], found.covariance[None], np.zeros((1, SIZE)))
+    return update_mixture(mixture, line, found.value[None], NO_NOISE, partial=partial)
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])

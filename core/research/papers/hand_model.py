@@ -28,7 +28,7 @@ from carpus.core.model.hand.clinical_angles import side_sign, wrist_axes
 from carpus.core.model.hand.kinematics import joint_centres
 from carpus.core.model.hand.protocols import SITE_CHAINS, joint_angle_names
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.filter.unscented import UnscentedParameters
+from carpus.core.tracking.filter.mixture_filter import UnscentedParameters
 
 # eta_v, eta_omega and eta_theta of a slow, a usual and a lively hand (reference 4.5; of joints its figures for
 # abduction: with its larger ones for flexion the image alone holds no finger).

@@ -17,31 +17,30 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.calibration.result import Calibration
 from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand import clinical_angles
+from carpus.core.model.hand.anatomy_prior import Gaussian
 from carpus.core.model.hand.protocols import SITES, joint_angle_names, markers_at_joint
 from carpus.core.model.types import Detections, FloatArray, KinematicState, TrackedFrame, TrackStatus
-from carpus.core.research.papers.hand_model import PaperSettings, measure_hand
+from carpus.core.pipeline import stored_settings
+from carpus.core.pipeline.stored_settings import StoredSettings
+from carpus.core.pipeline.track import NeutralNoise, TrackSettings, is_of_other_filter
+from carpus.core.research.papers.hand_model import PaperSettings, calibrate_as_written, measure_hand
+from carpus.core.session.values import Session
+from carpus.core.tracking.filter.mixture_filter import UnscentedParameters, compute_weights
 from carpus.core.tracking.filter.readout import build_lost_frame, nan_kinematics
-from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_sigma_offsets, compute_weights
 
 # States (P, n) after a step from states (P, n) and noises (P, k).
 StateTransition = Callable[[FloatArray, FloatArray], FloatArray]
-
-
-@dataclass(frozen=True, slots=True)
-class AugmentedGaussian:
-    """A Gaussian: ``mean`` (n,) and ``covariance`` (n, n)."""
-
-    mean: FloatArray
-    covariance: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +50,7 @@ class PredictedState:
     points: FloatArray
     mean_weight: FloatArray
     covariance_weight: FloatArray
-    state: AugmentedGaussian
+    state: Gaussian
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,16 +65,25 @@ class PredictedOutputs:
     cross_covariance: FloatArray
 
 
-@dataclass(frozen=True, slots=True)
-class UpdatedState:
-    """The state after an update, and the normalised innovation squared."""
+def compute_sigma_offsets(covariance: FloatArray, scale: float) -> FloatArray:
+    """Return the offsets (..., 2n+1, n) of the sigma points for covariances (..., n, n).
 
-    state: AugmentedGaussian
-    nis: float
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        When a covariance is not positive definite.
+    """
+    root = np.linalg.cholesky(covariance)
+    columns = np.swapaxes(root, -1, -2) * scale
+    n = covariance.shape[-1]
+    out = np.zeros((*covariance.shape[:-2], 2 * n + 1, n))
+    out[..., 1 : n + 1, :] = columns
+    out[..., n + 1 :, :] = -columns
+    return out
 
 
 def predict_state(
-    state: AugmentedGaussian, noise_covariance: FloatArray, motion: StateTransition, scaling: UnscentedParameters
+    state: Gaussian, noise_covariance: FloatArray, motion: StateTransition, scaling: UnscentedParameters
 ) -> PredictedState:
     """Draw points over state and noise (k, k) together and move them.
 
@@ -93,7 +101,7 @@ def predict_state(
     mean = weights.mean @ points
     deviation = points - mean
     covariance = (deviation * weights.covariance[:, None]).T @ deviation
-    return PredictedState(points, weights.mean, weights.covariance, AugmentedGaussian(mean, covariance))
+    return PredictedState(points, weights.mean, weights.covariance, Gaussian(mean, covariance))
 
 
 def predict_outputs(predicted: PredictedState, outputs: FloatArray) -> PredictedOutputs:
@@ -106,16 +114,16 @@ def predict_outputs(predicted: PredictedState, outputs: FloatArray) -> Predicted
 
 def update_state(
     predicted: PredictedState, outputs: PredictedOutputs, measured: FloatArray, noise_variance: FloatArray
-) -> UpdatedState:
-    """Update the state by measurements (m,) with noise variances (m,)."""
+) -> tuple[Gaussian, float]:
+    """Update the state by measurements (m,) with noise variances (m,); return its NIS too."""
     if not measured.size:
-        return UpdatedState(predicted.state, float("nan"))
+        return predicted.state, float("nan")
     innovation = measured - outputs.mean
     spread = outputs.covariance + np.diag(noise_variance)
     gain = np.linalg.solve(spread, outputs.cross_covariance.T).T
     covariance = predicted.state.covariance - gain @ spread @ gain.T
-    state = AugmentedGaussian(predicted.state.mean + gain @ innovation, 0.5 * (covariance + covariance.T))
-    return UpdatedState(state, float(innovation @ np.linalg.solve(spread, innovation)))
+    state = Gaussian(predicted.state.mean + gain @ innovation, 0.5 * (covariance + covariance.T))
+    return state, float(innovation @ np.linalg.solve(spread, innovation))
 
 
 def rotation_from_euler(euler_rad: FloatArray) -> FloatArray:
@@ -155,12 +163,12 @@ class PaperMotion:
         """Covariance (6 + J, 6 + J) of eta_v, eta_omega and eta_theta in their standard deviations."""
         return np.eye(PALM_NOISES + self.joint_count)
 
-    def neutral_state(self) -> AugmentedGaussian:
+    def neutral_state(self) -> Gaussian:
         """Return the state at rest at the pose that was clicked."""
         s, joints = self.settings, self.joint_count
         sd = [s.position_start_m] * 3 + [s.velocity_start_m_s] * 3 + [s.angle_start_rad] * 3
         sd += [s.joint_start_rad] * joints
-        return AugmentedGaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
+        return Gaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
 
     def build_transition(self, dt_s: float) -> StateTransition:
         """Return (1) over ``dt_s``, for many states (P, n) and noises (P, k) at once."""
@@ -302,10 +310,10 @@ class PaperTracker:
                 outputs.mean[rows], outputs.covariance[np.ix_(rows, rows)], outputs.cross_covariance[:, rows]
             )
             noise = np.full(rows.size, settings.pixel_sd_px**2)
-            updated = update_state(predicted, visible, pixel[assigned[used]].ravel(), noise)
+            state, nis = update_state(predicted, visible, pixel[assigned[used]].ravel(), noise)
         except np.linalg.LinAlgError:
             return None
-        mean, variance = updated.state.mean, updated.state.covariance.diagonal()
+        mean, variance = state.mean, state.covariance.diagonal()
         is_sane = np.isfinite(mean).all() and np.isfinite(variance).all() and (variance > 0.0).all()
         if not is_sane or np.abs(mean[EULER.start :]).max() >= _MAX_ANGLE_RAD:
             return None
@@ -316,7 +324,7 @@ class PaperTracker:
             self._last_seen_s = timestamp_s
         if timestamp_s - self._last_seen_s > settings.lost_after_s:
             return None
-        self._is_waiting, self._time_s, self._state = False, timestamp_s, updated.state
+        self._is_waiting, self._time_s, self._state = False, timestamp_s, state
         self._record_assignment(timestamp_s, assigned)
         measured_px, measured_depth_m = np.full((self._markers, 2), np.nan), np.full(self._markers, np.nan)
         measured_px[used], measured_depth_m[used] = detections.pixel[assigned[used]], detections.depth_m[assigned[used]]
@@ -324,7 +332,7 @@ class PaperTracker:
             index=index,
             timestamp_s=timestamp_s,
             status=TrackStatus.TRACKED if palm_count >= MIN_PALM_MARKERS else TrackStatus.PREDICTED,
-            kinematics=self._read_kinematics(updated.state),
+            kinematics=self._read_kinematics(state),
             marker_position_cam_m=self._discs_cam_m(mean[None])[0],
             marker_predicted_px=camera.distort(predicted_px),
             marker_measured_px=measured_px,
@@ -332,7 +340,7 @@ class PaperTracker:
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._direct_share(),
-            nis=updated.nis,
+            nis=nis,
             nis_dof=2 * used.size,
         )
 
@@ -349,7 +357,7 @@ class PaperTracker:
         own = seen.covariance.reshape(self._markers, 2, self._markers, 2)[marker, :, marker, :]
         return seen.mean.reshape(-1, 2), own + self.settings.pixel_sd_px**2 * np.eye(2)
 
-    def _read_kinematics(self, state: AugmentedGaussian) -> KinematicState:
+    def _read_kinematics(self, state: Gaussian) -> KinematicState:
         mean, covariance = state.mean, state.covariance
         rotation = rotation_from_euler(mean[EULER])
         wrist_rotation = self._start @ rotation
@@ -389,3 +397,47 @@ class PaperTracker:
 
 
 _JOINT_MARKERS = np.array([[SITES.index(disc) for disc in markers_at_joint(name)] for name in joint_angle_names()])
+
+
+@dataclass(frozen=True, slots=True)
+class PaperTrackSettings(TrackSettings):
+    """Settings of both papers' filter in ZYX, which uses nothing of ``tracker`` and does not smooth."""
+
+    paper: PaperSettings = field(default_factory=PaperSettings)
+
+    @classmethod
+    def from_base(cls, base: TrackSettings, paper: PaperSettings) -> Self:
+        """Return settings with this filter in place of Carpus' own."""
+        return cls(base.detection, base.calibration, base.tracker, base.smooth, paper)
+
+    @property
+    def dip_free(self) -> bool:
+        return False
+
+    @property
+    def uses_depth(self) -> bool:
+        return False
+
+    def build_tracker(
+        self, calibration: Calibration, camera: Camera, learnt: NeutralNoise
+    ) -> tuple[PaperTracker, None]:
+        return PaperTracker(calibration, camera, self.paper), None
+
+    def adapt_calibration(self, calibration: Calibration, camera: Camera) -> Calibration:
+        return calibrate_as_written(calibration, camera, self.paper.palm)
+
+    def adapt_stored_calibration(self, session: Session) -> Calibration:
+        before = settings_from_json(session.header.parameters)
+        calibration = session.calibration
+        if before is not None and isinstance(before.settings, PaperTrackSettings):
+            if before.settings.paper.palm == self.paper.palm:
+                return calibration
+            calibration = with_w0_from_markers(calibration)
+        return self.adapt_calibration(calibration, session.camera)
+
+
+def settings_from_json(parameters: str) -> StoredSettings | None:
+    """Return the settings in a session's parameters, of whichever filter; None where there are none."""
+    return stored_settings.settings_from_json(
+        parameters, PaperTrackSettings if is_of_other_filter(parameters) else TrackSettings
+    )

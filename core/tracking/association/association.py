@@ -29,29 +29,15 @@ LOG_IMPOSSIBLE = -1e9  # log odds of an association outside the gate
 DEPTH_OUTLIER_PROBABILITY = 1e-4  # that a blob's depth is of something else
 
 
-@dataclass(frozen=True, slots=True)
-class LogOdds:
-    """Log of (12) for marker j over (12) for clutter, (M, D).
-
-    ``LOG_IMPOSSIBLE`` outside the gate. ``with_depth``: whether the blob's depth is used; where not, it is the depth of
-    something else.
-    """
-
-    value: FloatArray
-    with_depth: NDArray[np.bool_]
-
-
 @lru_cache(maxsize=8)
-def log_densities(
-    resolution_px2: float, outlier_probability: float, settings: AssociationSettings
-) -> tuple[float, float, float]:
+def log_densities(resolution_px2: float, settings: AssociationSettings) -> tuple[float, float, float]:
     """Return logs of densities: marker prior and clutter in the image, clutter in depth, depth outlier.
 
     The first two but for those of the normal density.
     """
     prior = settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi)
     by_depth = settings.depth_range_m / math.sqrt(2.0 * math.pi)
-    return math.log(prior), math.log(by_depth), math.log(outlier_probability)
+    return math.log(prior), math.log(by_depth), math.log(DEPTH_OUTLIER_PROBABILITY)
 
 
 def log_odds(
@@ -60,10 +46,12 @@ def log_odds(
     measured: FloatArray,
     noise_variance: FloatArray,
     resolution_px2: float,
-    outlier_probability: float,
     settings: AssociationSettings,
-) -> LogOdds:
-    """Return the odds of every marker and blob, eq. (12).
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Return the odds of every marker and blob, and whether the blob's depth is used; (M, D) each.
+
+    The log of (12) for the marker over (12) for clutter, ``LOG_IMPOSSIBLE`` outside the gate. A depth that is not used
+    is that of something before or behind the disc.
 
     Parameters
     ----------
@@ -77,16 +65,12 @@ def log_odds(
         Measurement noise of the blobs.
     resolution_px2 : float
         Area of the image, RES.
-    outlier_probability : float
-        That a disc's depth is of something before or behind it.
     settings : AssociationSettings
         Priors and gate.
     """
-    densities = log_densities(resolution_px2, outlier_probability, settings)
-    return LogOdds(
-        *compute_log_odds(
-            predicted, covariance, measured, noise_variance, densities, settings.gate_sd**2, LOG_IMPOSSIBLE
-        )
+    densities = log_densities(resolution_px2, settings)
+    return compute_log_odds(
+        predicted, covariance, measured, noise_variance, densities, settings.gate_sd**2, LOG_IMPOSSIBLE
     )
 
 
@@ -177,9 +161,7 @@ def associate_jointly(
     measured: FloatArray,
     noise_variance: FloatArray,
     resolution_px2: float,
-    outlier_probability: float,
     settings: AssociationSettings,
-    beam: int | None = None,
 ) -> JointAssociation:
     """Find the most probable association of all blobs together.
 
@@ -192,7 +174,7 @@ def associate_jointly(
     # By the number of measured coordinates: clutter's depth is spread over a range; a depth that is left out was wrong.
     clutter = {
         3: np.full(len(measured), base + float(np.log(settings.depth_range_m))),
-        2: base + np.where(np.isfinite(measured[:, 2]), np.log(outlier_probability), 0.0),
+        2: base + np.where(np.isfinite(measured[:, 2]), np.log(DEPTH_OUTLIER_PROBABILITY), 0.0),
     }
     by_certainty = np.argsort(
         [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(markers)], kind="stable"
@@ -212,7 +194,7 @@ def associate_jointly(
             possible = (distance2 <= settings.gate_sd**2) & ~is_used
             options.append(np.where(possible, branches.score[:, None] + log_normal + clutter[used], -np.inf))
         score = np.concatenate(options, axis=1)  # (B, 1 + 2 D): no blob, each with its depth, each without
-        order = np.argsort(-score, axis=None, kind="stable")[: settings.beam_width if beam is None else beam]
+        order = np.argsort(-score, axis=None, kind="stable")[: settings.beam_width]
         order = order[np.isfinite(score.ravel()[order])]
         parent, option = np.divmod(order, score.shape[1])
         branches = _extend_branches(branches, parent, option, score.ravel()[order], block, measured, noise_variance)

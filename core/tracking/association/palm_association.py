@@ -12,8 +12,13 @@ from numpy.typing import NDArray
 
 from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.types import Detections, FloatArray
-from carpus.core.tracking.association import association
-from carpus.core.tracking.association.association import JointAssociation, associate_jointly, is_jointly_compatible
+from carpus.core.tracking.association.association import (
+    JointAssociation,
+    assign_blobs,
+    associate_jointly,
+    is_jointly_compatible,
+    log_odds,
+)
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, update_mixture
 from carpus.core.tracking.filter.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.filter.settings import AssociationSettings, MeasurementNoise, TrackerSettings
@@ -136,17 +141,9 @@ def associate_and_update(
     if not len(blobs):
         nothing = np.full(markers, -1, dtype=np.int64)
         return update_palm(predicted, blobs, nothing, nothing > 0, noise_factor)
-    odds = association.log_odds(
-        mean,
-        covariance,
-        blobs.value,
-        blobs.variance,
-        resolution_px2,
-        association.DEPTH_OUTLIER_PROBABILITY,
-        settings.association,
-    )
-    assigned = association.assign_blobs(odds.value)
-    with_depth = odds.with_depth[np.arange(markers), assigned]
+    odds, uses_depth = log_odds(mean, covariance, blobs.value, blobs.variance, resolution_px2, settings.association)
+    assigned = assign_blobs(odds)
+    with_depth = uses_depth[np.arange(markers), assigned]
     assigned = _reject_wrong_depths(assigned, with_depth, blobs, mean[:, 2], settings.association)
     simple = update_palm(predicted, blobs, assigned, with_depth, noise_factor)
     count = np.count_nonzero(assigned >= 0)
@@ -190,15 +187,7 @@ def _associate_by_mode(
     While the hand rests the mixture of the modes is as narrow as the calm one; a start is seen by the lively one.
     """
     every = [
-        associate_jointly(
-            mean,
-            covariance,
-            blobs.value,
-            blobs.variance,
-            resolution_px2,
-            association.DEPTH_OUTLIER_PROBABILITY,
-            settings.association,
-        )
+        associate_jointly(mean, covariance, blobs.value, blobs.variance, resolution_px2, settings.association)
         for mean, covariance in zip(*predicted.mode_predictions(), strict=True)
     ]
     score = [one.log_posterior for one in every] + np.log(predicted.mixture.probability[0])

@@ -14,7 +14,6 @@ from carpus.core.tracking.association.reacquire import FoundPalm, TurnLimits
 
 log = logging.getLogger(__name__)
 
-COLLINEAR_RMS_M = 0.008  # discs that lie as near (rms) to one line say nothing of turning about it
 MIN_PALM_MARKERS = 3  # that determine the pose of the palm; with fewer a frame is predicted
 PROBATION_S = 0.2  # a track initiated from nothing must go on being measured for so long
 CONFIRMATION_S = 0.09  # four markers among those of fingers must be found for so long

@@ -85,6 +85,7 @@ SKIN_SD_PX = 0.1  # of a disc on a finger about where the model has it, besides 
 MIN_VISIBLE_PROBABILITY = 0.5  # with less a disc was hidden a moment ago
 EXPECTED_CLUTTER = 3.0  # other blobs in a frame
 MAX_LINEAR_SD_RAD = math.radians(10.0)  # a joint predicted less surely may be far from where h was linearised
+EXTRA_LINEARISATIONS = 2  # of h, of a digit found far from where it was predicted, about what its discs say
 BEYOND_LIMIT_SD = 1.5  # so many standard deviations beyond its limits a joint surely is not
 # Of a blob over its disc seen square that holds a neighbour's too: of single ones 99.9 % are smaller.
 MIN_MERGED_AREA_RATIO = 1.25
@@ -214,22 +215,21 @@ def _associate_separately(scene: DigitScene, settings: TrackerSettings) -> Digit
         return DigitAssignment(np.full((N_DIGITS, N_DISCS), -1), np.zeros((N_DIGITS, N_DISCS), dtype=bool))
     own = settings.association
     own_covariance = scene.image_covariance.reshape(N_DIGITS, N_DISCS, 3, N_DISCS, 3).diagonal(axis1=1, axis2=3)
-    by_disc = association.log_odds(
+    by_disc, with_depth = association.log_odds(
         scene.linearised.value.reshape(-1, 3),
         np.moveaxis(own_covariance, -1, 1).reshape(-1, 3, 3),
         scene.blobs.value,
         scene.blobs.variance,
         scene.resolution_px2 / EXPECTED_CLUTTER,
-        association.DEPTH_OUTLIER_PROBABILITY,
         own,
     )
     # A marker's prior says how likely it is to be seen, which is known better here.
     log_seen = np.log(scene.visible / (1.0 - scene.visible)) - math.log(own.prior_marker / own.prior_clutter)
     log_seen[~scene.has_discs] = association.LOG_IMPOSSIBLE
-    odds = by_disc.value + log_seen.reshape(-1, 1)
+    odds = by_disc + log_seen.reshape(-1, 1)
     odds[:, ~scene.is_free] = association.LOG_IMPOSSIBLE
     assigned = association.assign_blobs(odds)
-    uses_depth = by_disc.with_depth[np.arange(assigned.size), assigned] & (assigned >= 0)
+    uses_depth = with_depth[np.arange(assigned.size), assigned] & (assigned >= 0)
     return DigitAssignment(assigned.reshape(N_DIGITS, N_DISCS), uses_depth.reshape(N_DIGITS, N_DISCS))
 
 

@@ -10,23 +10,21 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.model.camera import Camera
-from carpus.core.model.hand.anatomy_prior import AnatomyPrior
 from carpus.core.model.hand.fitting import AnatomyFit, MeasuredDiscs, fit_anatomy
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 from carpus.core.model.hand.protocols import DIGITS, SITES, MarkerProtocol
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.digits.digit_readout import DigitBase, DigitReadout
 from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     JOINTS,
     OBSERVED,
     RATES,
+    DigitBase,
     DigitMotion,
     Forgetting,
 )
 from carpus.core.tracking.filter.hand_geometry import (
     CROWDED_PX,
-    CROWDED_RADII,
     N_CONSTANTS,
     N_DIGITS,
     N_SLOTS,
@@ -37,11 +35,12 @@ from carpus.core.tracking.filter.hand_geometry import (
 from carpus.core.tracking.filter.joint_limits import (
     MID_RANGE_RAD,
     RANGE_SD_RAD,
-    apply_and_check_limits,
     apply_soft_limits,
+    compute_limit_excess,
 )
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, mode_transition_matrix
 from carpus.core.tracking.filter.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S
+from carpus.core.tracking.filter.readout import DigitReadout
 from carpus.core.tracking.filter.settings import TrackerSettings
 
 _FIXED_SD_RAD = 1e-6  # of a slot that does not move: the fifth of a finger, the third with a coupled DIP joint
@@ -72,23 +71,14 @@ MIN_GAP_S = 0.12  # between frames, from which on limits are applied before a fr
 MAX_BEYOND_RAD = math.radians(30.0)  # a finger further past its limits was misread
 
 
-def digit_start(
-    calibration: Calibration,
-    camera: Camera,
-    *,
-    dip_free: bool,
-    skin_offsets: bool,
-    marker_radius_m: float,
-    prior: AnatomyPrior,
-) -> DigitStart:
+def digit_start(calibration: Calibration, camera: Camera, settings: TrackerSettings) -> DigitStart:
     """Return the anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
-    measured = _discs_from_calibration(calibration, camera, marker_radius_m)
     fit = fit_anatomy(
-        measured,
+        _discs_from_calibration(calibration, camera, settings.marker_radius_m),
         calibration.clicks.side,
-        dip_free=dip_free,
-        skin_offsets=skin_offsets,
-        prior=prior,
+        dip_free=settings.dip == "free",
+        skin_offsets=settings.fingers.skin_offsets,
+        prior=settings.fingers.anatomy,
         is_straight=calibration.clicks.straight_fingers,
     )
     mean = np.zeros((N_DIGITS, N_SLOTS + N_CONSTANTS))
@@ -126,7 +116,7 @@ def _discs_from_calibration(calibration: Calibration, camera: Camera, marker_rad
     crowded = np.zeros(len(disc), dtype=bool)
     rays = np.array([chain[2:] for chain in protocol.chains.values()])
     radius_px = (marker_radius_m / pixel_m)[rays]
-    crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px, CROWDED_RADII)
+    crowded[rays] = is_crowded(camera.project(in_camera)[rays], radius_px)
     across = np.where(crowded, np.hypot(across, CROWDED_PX * pixel_m), across)
     blind_m = CLICK_SD_PX * pixel_m
     return MeasuredDiscs(
@@ -155,26 +145,16 @@ class FingerModel:
     """
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
-        finger_settings, dip_free = settings.fingers, settings.dip == "free"
         self.settings = settings
         protocol = calibration.clicks.protocol
         self.has_discs = np.array([digit in protocol.digits for digit in DIGITS])
-        """(5,) digits that carry discs; the others are believed to be anywhere and are not told of."""
         self.markers = np.array(list(protocol.chains.values()))[:, 2:]
-        """Rows (R, 3) of the moving discs of those digits."""
         self.resolution_px2 = float(camera.width_px * camera.height_px)
         self.calibrated_palm = PalmGeometry.from_discs(
             palm_calibration(calibration).marker_position_w0_m, np.eye(3), calibration.clicks.side
         )
         self.scales = np.array(settings.mode_scales)
-        self._start: DigitStart = digit_start(
-            calibration,
-            camera,
-            dip_free=dip_free,
-            skin_offsets=finger_settings.skin_offsets,
-            marker_radius_m=settings.marker_radius_m,
-            prior=finger_settings.anatomy,
-        )
+        self._start = digit_start(calibration, camera, settings)
         wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self.readout = DigitReadout(calibration.clicks, camera, settings, wrist_depth_m)
         motion = settings.motion_noise
@@ -185,7 +165,7 @@ class FingerModel:
         sd[0, 3] = 0.0
         stationary2 = np.zeros((N_DIGITS, N_SLOTS))
         stationary2[0, 3] = THUMB_ABDUCTION_SD_RAD**2
-        if not dip_free:
+        if settings.dip == "coupled":
             sd[1:, 3] = 0.0
             stationary2[1:, 3] = DIP_COUPLING_SD_RAD**2
         self._is_moving = sd > 0.0
@@ -247,7 +227,11 @@ class FingerModel:
         A digit that a frame has bent as no finger bends was misread: its joints may be anywhere, with the anatomy as it
         was ``before``.
         """
-        kept, merged, misread = apply_and_check_limits(estimates, MAX_BEYOND_RAD)
+        merged = estimates.merge()
+        kept = apply_soft_limits(estimates, merged[0][:, :N_SLOTS])
+        if kept is not estimates:
+            merged = kept.merge()
+        misread = np.asarray((np.abs(compute_limit_excess(merged[0][:, :N_SLOTS])) > MAX_BEYOND_RAD).any(axis=1))
         if misread.any():
             kept = self.restart_digits(kept, misread, before)
             merged = kept.merge()

@@ -13,10 +13,9 @@ import numpy as np
 
 from carpus.core.model.types import FINGER_SAMPLE_STEP_PX, FloatArray, SurfaceSamples
 from carpus.core.tracking.filter.digit_filter import OBSERVED, DigitView
-from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
+from carpus.core.tracking.filter.hand_geometry import FLEXION_SLOT, N_DIGITS, N_SLOTS
 from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, update_mixture
 
-FLEXION_SLOT = 1  # of a finger's MCP flexion
 _LENGTH, _FAN, _START, _HEIGHT = N_SLOTS, N_SLOTS + 3, slice(N_SLOTS + 5, N_SLOTS + 8), N_SLOTS + 8
 _DOWN = np.array([1.0, 1.0, -1.0])
 

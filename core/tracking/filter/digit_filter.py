@@ -14,12 +14,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.compiled import digit_images, digits
+from carpus.core.compiled import digit_images, digits, mixture
+from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_SLOTS
-from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, predict_mixture
-from carpus.core.tracking.filter.unscented import SigmaWeights, UnscentedParameters, compute_weights
+from carpus.core.tracking.filter.hand_geometry import N_CONSTANTS, N_DIGITS, N_DISCS, N_SLOTS, PalmGeometry
+from carpus.core.tracking.filter.mixture_filter import (
+    Linearisation,
+    ModeMixture,
+    SigmaWeights,
+    UnscentedParameters,
+    compute_weights,
+)
 
 JOINTS, RATES = slice(0, N_SLOTS), slice(N_SLOTS, 2 * N_SLOTS)
 # Rows of joints, their rates and the constants of the anatomy in a digit's state.
@@ -70,7 +76,8 @@ class DigitMotion:
         self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
     ) -> ModeMixture:
         """Predict the estimates ``dt_s`` ahead, their modes mixed before by ``switch`` (K, K)."""
-        return predict_mixture(estimates, *self._compute_transition(dt_s, self._scales2, forgetting), switch)
+        step = self._compute_transition(dt_s, self._scales2, forgetting)
+        return ModeMixture(*mixture.predict_modes(estimates, *step, switch))
 
     def compute_transition(
         self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None
@@ -177,3 +184,25 @@ def linearise_digits(points: DigitSigmaPoints, view: DigitView, scaling: Unscent
         points, view, digit_sigma_weights(scaling)
     )
     return DigitLinearisation(value, slope, error, points.mean, whole, centre_m, by_place)
+
+
+@dataclass(frozen=True, slots=True)
+class DigitBase:
+    """The palm as just updated, on which the fingers sit.
+
+    ``view`` from W2 of a right hand to the camera. In camera axes: ``pose_covariance`` (6, 6) of the tracked body's
+    position and turn; ``turn_covariance`` (3, 3) of the axes of W2, calibration error included.
+    """
+
+    palm: PalmGeometry
+    view: DigitView
+    pose_covariance: FloatArray
+    turn_covariance: FloatArray
+
+    def compute_image_covariance(self, linearised: DigitLinearisation) -> FloatArray:
+        """Return the covariance (5, 9, 9) of the discs' images by the palm's error alone."""
+        by_pose = np.empty((N_DIGITS, N_DISCS, 3, 6))
+        by_pose[..., :3] = linearised.by_place
+        by_pose[..., 3:] = linearised.by_place @ so3.skew(self.view.translation_m - linearised.centre_m)
+        flat = by_pose.reshape(N_DIGITS, 3 * N_DISCS, 6)
+        return np.asarray(flat @ self.pose_covariance @ np.swapaxes(flat, 1, 2))

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
-from carpus.core.model.hand.protocols import DIGITS, PALM_MARKERS, MarkerProtocol, markers_at_joint
+from carpus.core.model.hand.protocols import DIGITS, PALM_MARKERS, MarkerProtocol
 from carpus.core.model.types import FloatArray, Side
 
 N_DIGITS, N_SLOTS, N_CONSTANTS = 5, 5, 11
 N_DISCS = 3  # of a digit that move against the palm
+FLEXION_SLOT = 1  # of a finger's MCP flexion
 
 # The first disc that moves with a slot: 0 the first of the digit's three; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
@@ -31,13 +32,12 @@ ZERO_CUP = np.zeros(N_DIGITS)  # no metacarpal has flexed
 CROWDED_RADII, CROWDED_PX = 2.4, 0.5
 
 
-def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArray[np.bool_]:
+def is_crowded(pixel: FloatArray, radius_px: FloatArray) -> NDArray[np.bool_]:
     """Return which discs of each digit (5, 3) nearly touch the one before or after.
 
-    ``pixel`` (5, 3, 2) of their centres; nearer than so many ``radii`` of a large disc there (5, 3) their edges blur
-    into one.
+    ``pixel`` (5, 3, 2) of their centres, ``radius_px`` (5, 3) of a large disc there.
     """
-    near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (radii * radius_px[:, 1:]) ** 2
+    near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (CROWDED_RADII * radius_px[:, 1:]) ** 2
     out = np.zeros(radius_px.shape, dtype=bool)
     out[:, 1:], out[:, :-1] = near, near
     out[:, 1] |= near[:, 0]
@@ -110,11 +110,6 @@ class JointAngleMap:
     def compute_variances(self, covariance: FloatArray) -> FloatArray:
         """Return variances (J,) from covariances (5, 5, 5) of the slots."""
         return np.asarray(np.vecdot((self.weight[:, None] @ covariance[self.chain])[:, 0], self.weight))
-
-
-def direct_marker_rows(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
-    """Return rows (J, 2) of the discs at each joint and next past it, which measure it directly."""
-    return np.array([protocol.rows(markers_at_joint(name)) for name in protocol.joint_names(dip_free)])
 
 
 _PALM = MarkerProtocol("palm", PALM_MARKERS)

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from carpus.core.compiled.digits import apply_limits
 from carpus.core.model.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
@@ -63,15 +62,3 @@ def apply_soft_limits(estimates: ModeMixture, slots: FloatArray) -> ModeMixture:
     """
     found = apply_limits(estimates, slot_limits_rad(slots), _DIRECTION, LIMIT_SD_RAD, LIMIT_GATE_SD)
     return estimates if found is None else ModeMixture(*found, estimates.probability)
-
-
-def apply_and_check_limits(
-    estimates: ModeMixture, max_excess_rad: float
-) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
-    """Apply the limits; return the estimates, merged too, and digits (5,) still beyond ``max_excess_rad``."""
-    merged = estimates.merge()
-    kept = apply_soft_limits(estimates, merged[0][:, :N_SLOTS])
-    if kept is not estimates:
-        merged = kept.merge()
-    beyond_rad = np.abs(compute_limit_excess(merged[0][:, :N_SLOTS]))
-    return kept, merged, np.asarray((beyond_rad > max_excess_rad).any(axis=1))

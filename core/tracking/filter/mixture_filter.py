@@ -4,12 +4,16 @@ Arrays lead with the chain (C: the palm is one, thumb and fingers are five) and 
 transition, its noise, and h as linearised by sigma points. The modes form an interacting multiple model (Blom and
 Bar-Shalom 1988): the same filter with other process noise, weighed by how well each predicted the measurements. Where a
 chain lives on a manifold its numbers are small errors from a nominal estimate that the model stores.
+
+The sigma points (Wan and van der Merwe 2000; Kandepu et al. 2008) of the palm are made in ``predict_palm_measurement``
+of :mod:`core.compiled.palm`, those of the digits in ``compute_digit_sigma_points`` of :mod:`core.compiled.digits`.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,25 +59,6 @@ def mode_transition_matrix(modes: int, dwell_s: float, dt_s: float) -> FloatArra
     return out
 
 
-def predict_mixture(
-    mixture: ModeMixture, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None
-) -> ModeMixture:
-    """Predict the mixture: P <- F P F' + Q.
-
-    Parameters
-    ----------
-    mixture : ModeMixture
-        The estimates.
-    forward : (C, n, n)
-        Transition F.
-    noise : (C, K, n, n)
-        Process noise Q by mode.
-    switch : (K, K), optional
-        Mode transition probabilities, by which the modes are mixed before.
-    """
-    return ModeMixture(*compiled.predict_modes(mixture, forward, noise, switch))
-
-
 @dataclass(frozen=True, slots=True)
 class Transition:
     """A step of a chain of which only the first m numbers mix.
@@ -88,15 +73,36 @@ class Transition:
     relaxing: FloatArray
 
 
-def propagate_mixture(
-    mixture: ModeMixture, step: Transition, nominal: FloatArray, switch: FloatArray | None = None
-) -> ModeMixture:
-    """Predict a mixture of errors from a ``nominal`` (n,) that moves with its first m numbers only.
+@dataclass(frozen=True, slots=True)
+class UnscentedParameters:
+    """Scaling of the sigma points; with kappa 0 and alpha 1 they stand at sqrt(n) sigma."""
 
-    What a mode does not keep of the rest of the nominal is an error of the mode. The modes are mixed before where there
-    is a ``switch`` (K, K).
-    """
-    return ModeMixture(*compiled.predict_palm_modes(mixture, step, nominal, switch))
+    alpha: float = 0.25
+    beta: float = 2.0
+    kappa: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SigmaWeights:
+    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda)."""
+
+    mean: FloatArray
+    covariance: FloatArray
+    scale: float
+
+
+@lru_cache(maxsize=64)
+def compute_weights(dimension: int, scaling: UnscentedParameters) -> SigmaWeights:
+    """Return the weights of the 2n+1 points of an n-dimensional Gaussian."""
+    lam = scaling.alpha**2 * (dimension + scaling.kappa) - dimension
+    total = dimension + lam
+    mean = np.full(2 * dimension + 1, 0.5 / total)
+    covariance = mean.copy()
+    mean[0] = lam / total
+    covariance[0] = mean[0] + 1.0 - scaling.alpha**2 + scaling.beta
+    mean.setflags(write=False)
+    covariance.setflags(write=False)
+    return SigmaWeights(mean, covariance, float(np.sqrt(total)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,9 +13,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.compiled.mixture import predict_palm_modes
 from carpus.core.compiled.palm import compute_palm_transition
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.filter.mixture_filter import ModeMixture, Transition, propagate_mixture
+from carpus.core.tracking.filter.mixture_filter import ModeMixture, Transition
 from carpus.core.tracking.filter.palm_state import POSITION, RATE, SIZE, SKIN, TURN, VELOCITY, PalmEstimate
 from carpus.core.tracking.filter.soft_tissue import HOME, STILL, ZERO_SPEEDS, DigitSpeeds, TissueModes
 
@@ -23,6 +24,7 @@ REFERENCE_DT_S = 1.0 / 30.0
 
 MODE_DWELL_S = 0.5  # mean time in a motion mode
 RATE_MEMORY_S = 0.2  # over which the velocity of an unseen hand fades
+COLLINEAR_RMS_M = 0.008  # discs that lie as near (rms) to one line say nothing of turning about it
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,9 +147,12 @@ def predict_palm(
     unseen: FloatArray | None = None,
     digits: DigitSpeeds = ZERO_SPEEDS,
 ) -> tuple[PalmEstimate, ModeMixture]:
-    """Predict the palm ``dt_s`` ahead, its modes as errors from the nominal estimate."""
+    """Predict the palm ``dt_s`` ahead, its modes as errors from the nominal estimate.
+
+    What a mode does not keep of the nominal estimate is an error of the mode.
+    """
     step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
-    predicted = propagate_mixture(mixture, step, estimate.value, step.switch)
+    predicted = ModeMixture(*predict_palm_modes(mixture, step, estimate.value, step.switch))
     return step.propagate(estimate, dt_s, predicted.merge()[1][0]), predicted
 
 
@@ -165,7 +170,7 @@ def fading_matrix(keep: float, unseen: FloatArray) -> FloatArray:
     return out
 
 
-def find_unobserved_turns(disc_m: FloatArray, collinear_rms_m: float) -> FloatArray | None:
+def find_unobserved_turns(disc_m: FloatArray) -> FloatArray | None:
     """Return the projection (3, 3) on turns that the discs do not show; None where they show all.
 
     Discs near one line say nothing of turning about it: what moves then is their heights over it, a few millimetres.
@@ -175,7 +180,7 @@ def find_unobserved_turns(disc_m: FloatArray, collinear_rms_m: float) -> FloatAr
         return np.eye(3)
     offset = disc_m[:, :2] - disc_m[:, :2].mean(axis=0)
     _, spread, axes = np.linalg.svd(offset, full_matrices=False)
-    if spread[1] >= collinear_rms_m * math.sqrt(len(disc_m)):
+    if spread[1] >= COLLINEAR_RMS_M * math.sqrt(len(disc_m)):
         return None
     line = np.array([axes[0, 0], axes[0, 1], 0.0])
     return np.outer(line, line)

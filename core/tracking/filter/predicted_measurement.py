@@ -18,7 +18,13 @@ from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.types import BoolArray, FloatArray
 from carpus.core.tracking.filter.digit_filter import DigitSigmaPoints, DigitView, digit_sigma_weights
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, PalmGeometry
-from carpus.core.tracking.filter.mixture_filter import Linearisation, ModeMixture, partial_update_shares
+from carpus.core.tracking.filter.mixture_filter import (
+    Linearisation,
+    ModeMixture,
+    UnscentedParameters,
+    compute_weights,
+    partial_update_shares,
+)
 from carpus.core.tracking.filter.motion import PalmMotion, predict_palm
 from carpus.core.tracking.filter.palm_state import (
     CALIBRATION_ERROR,
@@ -31,7 +37,6 @@ from carpus.core.tracking.filter.palm_state import (
 )
 from carpus.core.tracking.filter.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
-from carpus.core.tracking.filter.unscented import UnscentedParameters, compute_weights
 
 _MIN_SD_M = 1e-5  # keeps the covariance of a perfectly measured disc positive definite
 

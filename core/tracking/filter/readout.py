@@ -1,4 +1,4 @@
-"""Readout of the estimate: wrist frame, clinical angles, standard deviations.
+"""Readout of the estimate: wrist frame, clinical angles, joints, standard deviations.
 
 The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is refined, the
 true axes of W follow from the better known discs; the readout turns the result into them. The covariance of an angle
@@ -8,18 +8,31 @@ number of frames takes away: the filter counts each frame as new.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.calibration.result import Calibration
+from carpus.core.calibration.result import Calibration, Clicks
+from carpus.core.compiled.digit_images import compute_inherited
+from carpus.core.compiled.digits import place_digits
 from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand import clinical_angles
 from carpus.core.model.hand.clinical_angles import wrist_axes_sensitivity
+from carpus.core.model.hand.protocols import markers_at_joint
 from carpus.core.model.types import Detections, FloatArray, KinematicState, TrackedFrame, TrackStatus
-from carpus.core.tracking.filter.hand_geometry import N_DIGITS, JointState, PalmGeometry
+from carpus.core.tracking.filter.digit_filter import OBSERVED, RATES, DigitBase, DigitLinearisation, DigitView
+from carpus.core.tracking.filter.hand_geometry import (
+    FLEXION_SLOT,
+    N_DIGITS,
+    N_DISCS,
+    N_SLOTS,
+    JointAngleMap,
+    JointState,
+    PalmGeometry,
+)
 from carpus.core.tracking.filter.palm_state import POSE, SHAPE, SKIN, TURN, PalmEstimate, PalmView
+from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import CUPPING_DISCS
 
 _NONE = np.empty(0)
@@ -31,6 +44,8 @@ _DORSAL = np.array([0.0, 0.0, 1.0])
 _TILT_RANK_TOLERANCE = 1e-3  # share of the best known direction below which depths say nothing of a turn
 
 MAX_SHAPE_CHANGE_M = 3e-4  # of a disc; beyond, the axes are computed again, below, to first order
+SKIN_SD_RAD = 0.022  # of a joint, by discs that ride on gliding skin, however long it is measured
+_DIP_OFFSET = 3  # the slot of a finger's DIP flexion beyond what PIP flexion brings with it
 METACARPAL_M = 0.055  # of ring and little finger, from the joint at its base to its head (clinical reference 3.3)
 
 
@@ -80,24 +95,10 @@ class Readout:
             self._turned = estimate, np.asarray(known.axes @ turn)
         return known, self._turned[1]
 
-    def compute_base(
-        self, estimate: PalmEstimate, view: PalmView
-    ) -> tuple[PalmGeometry, FloatArray, FloatArray, FloatArray, FloatArray]:
-        """
-        Compute where the fingers sit on the palm as refined, and how the camera sees it.
+    def compute_base(self, estimate: PalmEstimate, view: PalmView) -> DigitBase:
+        """Compute where the fingers sit on the palm as refined, and how the camera sees it.
 
         Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
-
-        Returns
-        -------
-        palm : PalmGeometry
-            The palm in the tracked body.
-        rotation, translation_m : (3, 3), (3,)
-            From W into camera axes.
-        pose_covariance : (6, 6)
-            Of the body's position and turn, in camera axes.
-        turn_covariance : (3, 3)
-            Of the turn of the palm's axes, in camera axes.
         """
         known, axes = self._wrist_axes(estimate)
         disc_m = self._disc_m + estimate.shape_m
@@ -111,7 +112,7 @@ class Readout:
         to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
         pose = to_camera @ estimate.covariance[POSE[:, None], POSE] @ to_camera.T
         turn = body_cam @ _turn_covariance(_STILL, axes @ known.sensitivity, estimate) @ body_cam.T
-        return palm, *view.to_camera(estimate, palm.axes, palm.origin_m), pose, turn
+        return DigitBase(palm, DigitView(*view.to_camera(estimate, palm.axes, palm.origin_m), view.camera), pose, turn)
 
     def read_kinematics(self, estimate: PalmEstimate) -> KinematicState:
         """
@@ -158,19 +159,61 @@ class Readout:
         """Add the joints to the kinematics; their bones stand on the fixed unit, not on the skin."""
         rotation = so3.exp(kinematics.w0_turn_rad) @ kinematics.rotation_w2_w0
         origin_m = kinematics.position_m - estimate.rotation_w2_w0 @ estimate.skin_m[0]
-        return KinematicState(
-            kinematics.position_m,
-            kinematics.velocity_m_s,
-            kinematics.w0_turn_rad,
-            kinematics.rotation_w2_w0,
-            kinematics.angular_velocity_rad_s,
-            kinematics.angles_rad,
-            kinematics.angles_sd_rad,
-            kinematics.angles_zyz_rad,
-            joints.angles_rad,
-            joints.sd_rad,
-            joints.rate_rad_s,
-            origin_m + joints.joint_w2_m @ rotation.T,
+        return replace(
+            kinematics,
+            joint_angles_rad=joints.angles_rad,
+            joint_angles_sd_rad=joints.sd_rad,
+            joint_velocity_rad_s=joints.rate_rad_s,
+            joint_position_m=origin_m + joints.joint_w2_m @ rotation.T,
+        )
+
+
+class DigitReadout:
+    """Reads the digits of one hand; ``wrist_depth_m`` of the wrist's centre under its disc."""
+
+    def __init__(self, clicks: Clicks, camera: Camera, settings: TrackerSettings, wrist_depth_m: float) -> None:
+        protocol, self._side = clicks.protocol, clicks.side
+        self._dip_free = settings.dip == "free"
+        self._skin_rad2 = settings.fingers.skin_offsets * SKIN_SD_RAD**2 * np.eye(N_SLOTS)
+        self.angle_map = JointAngleMap.from_digits(self._dip_free, protocol.digits)
+        self.direct_markers = np.array(
+            [protocol.rows(markers_at_joint(name)) for name in protocol.joint_names(self._dip_free)]
+        )
+        """Rows (J, 2) of the discs at each joint and next past it, which measure it directly."""
+        self._sites = np.array(list(protocol.sites), dtype=np.int64)
+        self._wrist_depth_m = wrist_depth_m
+
+    def read_joints(
+        self, mean: FloatArray, covariance: FloatArray, base: DigitBase, linearised: DigitLinearisation
+    ) -> JointState:
+        """Return the joints of digits (5, n) with covariance (5, n, n) on a palm.
+
+        ``linearised`` as the camera saw them.
+        """
+        palm, state = base.palm, mean[:, OBSERVED]
+        _, normal, joint_m, disc_m = place_digits(state, palm.disc_m[1:])
+        if not self._dip_free:
+            # As the angles have the end joints, at two thirds of the middle ones: by how much one strays is for the
+            # discs alone, and is no measurement of the joint.
+            state[1:, _DIP_OFFSET] = 0.0
+            _, _, joint_m, _ = place_digits(state, palm.disc_m[1:])
+        # A knuckle's flexion is against its own metacarpal.
+        slots = mean[:, :N_SLOTS].copy()
+        unsure = covariance[:, :N_SLOTS, :N_SLOTS] + compute_inherited(covariance, base, linearised, normal)
+        slots[:, FLEXION_SLOT] -= palm.cup_rad
+        unsure[:, FLEXION_SLOT, FLEXION_SLOT] += palm.cup_sd_rad**2
+        unsure += self._skin_rad2
+        centre = np.empty((1 + N_DIGITS * (N_DISCS + 1), 3))
+        centre[0] = 0.0, 0.0, -self._wrist_depth_m
+        centre[1:] = joint_m.reshape(-1, 3)
+        if self._side == "left":
+            centre[:, 1] *= -1.0
+        return JointState(
+            self.angle_map.compute_angles(slots),
+            np.sqrt(np.maximum(self.angle_map.compute_variances(unsure), 0.0)),
+            self.angle_map.compute_angles(mean[:, RATES]),
+            centre[self._sites],
+            disc_m @ base.view.rotation.T + base.view.translation_m,
         )
 
 

@@ -8,11 +8,11 @@ from typing import Literal
 from carpus.core.model.hand.anatomy_prior import AnatomyPrior
 from carpus.core.model.names import Limits, check_limits
 from carpus.core.model.setting_values import NOT_IN_FILE
+from carpus.core.tracking.filter.mixture_filter import UnscentedParameters
 from carpus.core.tracking.filter.motion import MotionNoise
 from carpus.core.tracking.filter.palm_state import InitialSd
 from carpus.core.tracking.filter.soft_tissue import SoftTissue
 from carpus.core.tracking.filter.surface_fit import SurfaceSettings
-from carpus.core.tracking.filter.unscented import UnscentedParameters
 
 Profile = Literal["slow", "standard", "brisk"]
 
@@ -55,9 +55,6 @@ class Profiles:
     slow: MotionNoise = field(default_factory=lambda: MotionNoise(0.7, 2.0, 6.0))
     standard: MotionNoise = field(default_factory=lambda: MotionNoise(2.0, 8.0, 12.0))
     brisk: MotionNoise = field(default_factory=lambda: MotionNoise(6.0, 40.0, 60.0))
-
-    def get(self, profile: Profile) -> MotionNoise:
-        return {"slow": self.slow, "standard": self.standard, "brisk": self.brisk}[profile]
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,4 +133,5 @@ class TrackerSettings:
 
     @property
     def motion_noise(self) -> MotionNoise:
-        return self.profiles.get(self.profile)
+        noise: MotionNoise = getattr(self.profiles, self.profile)
+        return noise

@@ -73,21 +73,17 @@ class SurfaceMeasurement:
     count: int
     max_nis: float
 
-    def to_linearisation(self) -> Linearisation:
-        """Return the measurement, linear about the estimate's mean."""
-        return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
-
     def extend_measurement(
         self, discs: Linearisation, measured: FloatArray, variance: FloatArray
     ) -> tuple[Linearisation, FloatArray, FloatArray]:
         """Append the three components to a measurement (1, m) about the same mean, for one update by both."""
-        own, count = self.to_linearisation(), measured.shape[1]
+        count = measured.shape[1]
         error = np.zeros((1, count + 3, count + 3))
-        error[:, :count, :count], error[:, count:, count:] = discs.error, own.error
+        error[:, :count, :count], error[:, count:, count:] = discs.error, self.covariance
         return (
             Linearisation(
-                np.concatenate((discs.value, own.value), axis=1),
-                np.concatenate((discs.slope, own.slope), axis=1),
+                np.concatenate((discs.value, np.zeros((1, 3))), axis=1),
+                np.concatenate((discs.slope, self.slope[None]), axis=1),
                 error,
                 discs.point,
             ),

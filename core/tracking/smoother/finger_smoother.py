@@ -14,15 +14,14 @@ from numpy.typing import NDArray
 
 from carpus.core.model.hand.anatomy_prior import Gaussian
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.digits.digit_association import find_far_digits
-from carpus.core.tracking.digits.digit_readout import DigitBase
-from carpus.core.tracking.digits.digit_update import EXTRA_LINEARISATIONS
+from carpus.core.tracking.digits.digit_association import EXTRA_LINEARISATIONS, find_far_digits
 from carpus.core.tracking.digits.finger_model import DIFFUSION_S, FingerModel
 from carpus.core.tracking.digits.knuckle_flexion import KnuckleFlexion, update_by_knuckle_flexion
 from carpus.core.tracking.filter.digit_filter import (
     ANATOMY,
     DIGIT_SIZE,
     RATES,
+    DigitBase,
     DigitLinearisation,
     draw_sigma_points,
     linearise_digits,

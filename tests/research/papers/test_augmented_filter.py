@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
+from carpus.core.model.hand.anatomy_prior import Gaussian
 from carpus.core.model.types import FloatArray
-from carpus.core.research.papers.tracker import AugmentedGaussian, predict_outputs, predict_state, update_state
-from carpus.core.tracking.filter.unscented import UnscentedParameters
+from carpus.core.research.papers.tracker import predict_outputs, predict_state, update_state
+from carpus.core.tracking.filter.mixture_filter import UnscentedParameters
 
 SCALINGS = [UnscentedParameters(1.0, 2.0, 0.0), UnscentedParameters(0.25, 2.0, 0.0), UnscentedParameters(0.5, 0.0, 1.0)]
 
@@ -47,13 +48,13 @@ def test_predict_and_update_are_filterpys(scaling: UnscentedParameters, seed: in
     oracle.compute_process_sigmas(1.0)
     predicted_points = oracle.sigmas_f.copy()
     oracle.predict()
-    ahead = predict_state(AugmentedGaussian(x, p), q, moved, scaling)
+    ahead = predict_state(Gaussian(x, p), q, moved, scaling)
     assert np.allclose(ahead.state.mean, oracle.x[:3], rtol=1e-9, atol=1e-12)
     assert np.allclose(ahead.state.covariance, oracle.P[:3, :3], rtol=1e-9, atol=1e-12)
 
     oracle.sigmas_f = predicted_points  # it draws new ones; (9) goes on with those that were moved
     oracle.update(y)
-    after = update_state(ahead, predict_outputs(ahead, project_state(ahead.points)), y, r)
-    assert np.allclose(after.state.mean, oracle.x[:3], rtol=1e-8, atol=1e-10)
-    assert np.allclose(after.state.covariance, oracle.P[:3, :3], rtol=1e-8, atol=1e-10)
-    assert np.linalg.norm(after.state.mean - ahead.state.mean) > 1e-3
+    after, _ = update_state(ahead, predict_outputs(ahead, project_state(ahead.points)), y, r)
+    assert np.allclose(after.mean, oracle.x[:3], rtol=1e-8, atol=1e-10)
+    assert np.allclose(after.covariance, oracle.P[:3, :3], rtol=1e-8, atol=1e-10)
+    assert np.linalg.norm(after.mean - ahead.state.mean) > 1e-3
