@@ -31,7 +31,7 @@ from carpus.app.command_line import (
     print_message,
     reopen_closed_streams,
 )
-from carpus.app.commands import COMMANDS
+from carpus.app.commands import COMMANDS, MODULES
 from carpus.core.model.errors import CarpusFault, DiskFull
 from carpus.core.model.purpose import PURPOSE
 from carpus.core.platform.durable import DISK_FULL_ERRNOS
@@ -64,10 +64,10 @@ def build_parser(asked: Sequence[str]) -> CommandParser:
     for name, words in COMMANDS.items():
         sub = subparsers.add_parser(name, help=words, description=textwrap.fill(words, 100))
         if name == next((word for word in asked if not word.startswith("-")), None):
-            command = import_module(f"carpus.app.commands.{name.replace('-', '_')}")
-            command.add_arguments(sub)
-            sub.epilog = "\n\n".join(filter(None, (sub.epilog, "Example:\n" + textwrap.indent(command.EXAMPLE, "  "))))
-            sub.set_defaults(run=command.run, parser=sub)
+            key = name.replace("-", "_")
+            module = import_module(f"carpus.app.commands.{MODULES.get(name, key)}")
+            getattr(module, f"add_{key}_arguments")(sub)
+            sub.set_defaults(run=getattr(module, f"run_{key}"), parser=sub)
     return out
 
 
@@ -124,7 +124,7 @@ def _run(asked: Sequence[str]) -> int:
     if arguments.command is None:
         from carpus.app.commands import desktop
 
-        return desktop.run(arguments)
+        return desktop.open_window(None, is_demo=False, file=arguments.gdt and arguments.gdt.absolute())
     return int(arguments.run(arguments))
 
 

@@ -9,6 +9,7 @@ import math
 import os
 import signal
 import sys
+import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -177,6 +178,11 @@ def add_region_option(parser: argparse.ArgumentParser) -> None:
         help="write tables for a spreadsheet of this region, for example de_DE, it_IT or en_GB, with its separator and "
         "decimal sign (default: commas and decimal points, for other programs)",
     )
+
+
+def add_examples(parser: argparse.ArgumentParser, *lines: str) -> None:
+    """Show lines that can be typed at the end of the help."""
+    parser.epilog = "\n\n".join(filter(None, (parser.epilog, "Example:\n" + textwrap.indent("\n".join(lines), "  "))))
 
 
 def number_type(low: float = -math.inf, high: float = math.inf, unit: str = "") -> Callable[[str], float]:

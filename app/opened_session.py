@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from carpus.app.session_commands import find_session_files, log_session_action, read_choices
+from carpus.app.session_commands import log_session_action, read_choices, read_results
 from carpus.core.model.errors import CarpusFault, ExtraMissing, SettingsInvalid
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.model.hand.protocols import WRIST_ANGLES
@@ -219,6 +219,11 @@ def check_path(where: str, name: str, value: object) -> Path:
     return Path(value)
 
 
+def show_warning(fault: CarpusFault) -> None:
+    """Warn the caller of a fault that ends nothing."""
+    warnings.warn(format_fault_line(fault), stacklevel=2)
+
+
 def open_session(path: str | Path) -> OpenedSession:
     """Open a session file; the file is never changed.
 
@@ -248,18 +253,13 @@ def open_sessions(folder: str | Path | Sequence[str | Path]) -> DataFrame:
     from carpus.core.formats.measures_table import build_measure_rows
     from carpus.core.results.progress import select_latest_versions
 
-    given = [folder] if isinstance(folder, (str, Path)) else list(folder)
-    found: dict[int, str] = {}
-    results = []
-    for path in find_session_files([Path(one) for one in given]):
-        try:
-            results.append(open_session(path)._results())
-        except CarpusFault as fault:
-            warnings.warn(format_fault_line(fault), stacklevel=2)
-        else:
-            found[id(results[-1])] = path.stem
-    latest = select_latest_versions(results)
-    return _measures_frame([row for one in latest for row in build_measure_rows(one, found[id(one)])])
+    given = [folder] if isinstance(folder, (str, Path)) else folder
+    found = read_results([Path(one) for one in given], show_warning)
+    for path, one in found:
+        log_session_action("opened", path, one.session_id)
+    names = {id(one): path.stem for path, one in found}
+    latest = select_latest_versions([one for _, one in found])
+    return _measures_frame([row for one in latest for row in build_measure_rows(one, names[id(one)])])
 
 
 def _measures_frame(rows: Sequence[MeasureRow]) -> DataFrame:

@@ -8,7 +8,6 @@ for frame in carpus.track("recording", "clicks.json"):
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +16,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from carpus.app.opened_session import OpenedSession, check_path, open_session
+from carpus.app.opened_session import OpenedSession, check_path, open_session, show_warning
 from carpus.app.session_commands import log_export, read_choices
 from carpus.app.sources import open_recording
 from carpus.core.calibration.candidates import find_marker_candidates
@@ -28,8 +27,7 @@ from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.formats.export import FORMATS, ExportRequest, ExportResult, export_sessions
 from carpus.core.formats.output_files import MACHINE_DIALECT
 from carpus.core.model.camera import DEFAULT_CAMERA, Camera
-from carpus.core.model.errors import CalibrationImpossible, CarpusFault, RecordingEmpty, SettingsInvalid
-from carpus.core.model.fault_text import format_fault_line
+from carpus.core.model.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
 from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.model.hand.protocols import SITES, get_protocol
 from carpus.core.model.types import BoolArray, FloatArray, Frame, Side, TrackedFrame, TrackStatus
@@ -211,7 +209,7 @@ def write_session(
     chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
     recorded, out = check_path(where, "path", path), check_path(where, "output", output)
     told = _load_clicks(where, clicks)
-    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=_show_warning)
+    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=show_warning)
     try:
         try:
             out.parent.mkdir(parents=True, exist_ok=True)
@@ -319,12 +317,8 @@ def _check_picture(
         raise SettingsInvalid(where, f"{name} is no recording and no picture ({wanted}) {kind.__name__}")
 
 
-def _show_warning(fault: CarpusFault) -> None:
-    warnings.warn(format_fault_line(fault), stacklevel=2)
-
-
 def _track_frames(path: Path, clicks: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
-    source = open_recording(path, need_depth=chosen.uses_depth, notice=_show_warning)
+    source = open_recording(path, need_depth=chosen.uses_depth, notice=show_warning)
     try:
         begun, names = start_tracking(source, clicks, chosen), clicks.protocol.joint_names(chosen.dip_free)
         for frame in begun.frames:

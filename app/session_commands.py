@@ -6,12 +6,11 @@ Files outside a data folder are a person's own: nothing is logged.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import print_fault, print_message
+from carpus.app.command_line import print_fault
 from carpus.app.settings import Settings, load_valid_settings, sessions_folder
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     import sqlite3
 
     from carpus.core.formats.export import ExportResult
+    from carpus.core.measures.change_limits import ErrorLimits
     from carpus.core.records.data_folder import DataFolder
     from carpus.core.records.log import AuditAction, SubjectKind
     from carpus.core.records.session_records import OutputKind
@@ -154,40 +154,33 @@ def find_session_files(places: Sequence[Path]) -> list[Path]:
     return list(found)
 
 
-def read_figures(
+def read_results(
     places: Sequence[Path],
     on_fault: Callable[[CarpusFault], object],
-    raters_by_file: Mapping[str, str] = MappingProxyType({}),
-) -> tuple[list[SessionResults], dict[str, str]]:
-    """Read the results of all sessions, and their raters by session id.
+    limits: ErrorLimits | None = None,
+    is_wanted: Callable[[str], bool] = lambda _: True,
+) -> list[tuple[Path, SessionResults]]:
+    """Return the session files of some places with their results; those that cannot be read go to ``on_fault``.
 
-    Unreadable sessions are passed to ``on_fault``.
+    ``is_wanted`` tells by its pseudonym whether a session is read.
 
     Raises
     ------
-    FolderMissing
-    StudyUnsuited
-        No session can be read.
+    FolderMissing, SessionsMissing
     """
+    from carpus.core.measures.change_limits import DEFAULT_LIMITS
     from carpus.core.results.session_results import compute_session_results
     from carpus.core.session.reader import read_session
 
-    figures, raters, met = [], {}, set()
+    found = []
     for path in find_session_files(places):
         try:
-            figures.append(compute_session_results(read_session(path), read_choices(path)))
+            if is_wanted(read_outline(path).header.subject_id):
+                results = compute_session_results(read_session(path), read_choices(path), limits or DEFAULT_LIMITS)
+                found.append((path, results))
         except CarpusFault as fault:
             on_fault(fault)
-            continue
-        for name in (path.name, path.stem):
-            if name in raters_by_file:
-                raters[figures[-1].session_id] = raters_by_file[name]
-                met.add(name)
-    if not figures:
-        raise errors.StudyUnsuited(places[0], "no session can be read")
-    for name in sorted(set(raters_by_file) - met):
-        print_message(f"no session is called {name}, which the list of raters names.")
-    return figures, raters
+    return found
 
 
 def open_library(folder: Path, *, read_only: bool = False) -> DataFolder:

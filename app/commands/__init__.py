@@ -1,7 +1,7 @@
 """The commands of ``carpus``.
 
-Each has a module of its name (- becomes _) with ``add_arguments(parser)`` and ``run(arguments)``, imported only when
-the command is requested: tracking a file needs no window, and a help text no tracker.
+The module of a command has ``add_NAME_arguments(parser)`` and ``run_NAME(arguments)`` (- becomes _). It is imported
+only when the command is requested: tracking a file needs no window, and a help text no tracker.
 """
 
 from __future__ import annotations
@@ -29,3 +29,12 @@ COMMANDS = {
     "check-card": "Print the check card, and check a camera with it.",
     "doctor": "Check driver, camera, window libraries, fonts, disk and data folder.",
 }
+MODULES = {
+    "demo": "desktop",
+    "review": "desktop",
+    "verify": "info",
+    "results": "progress",
+    "check-card": "calibrate_camera",
+    **dict.fromkeys(("log", "erase", "backup", "restore", "recover"), "data_folder"),
+}
+"""Modules of commands that are not in one of their own name."""

@@ -8,13 +8,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.command_line import add_region_option, number_type, print_json, report_usage_error
+from carpus.app.command_line import add_examples, add_region_option, number_type, print_json, report_usage_error
 from carpus.core.model.hand.protocols import SITES
 from carpus.core.model.names import describe_known_names
 from carpus.core.research.agreement.compare import DEFAULT_MAX_SHIFT_S, MAX_DRIFT_PERCENT, MAX_SHIFT_S
 
 MAX_LIMIT_DEG = 90.0
-EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"
 
 
 def parse_mapping(text: str) -> dict[str, str]:
@@ -36,7 +35,8 @@ def parse_marker_mapping(text: str) -> dict[str, str]:
     return found
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_compare_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus compare session.h5 reference.c3d --output out/agreement")
     parser.add_argument("session", type=Path, nargs="?", metavar="SESSION.h5")
     parser.add_argument(
         "reference",
@@ -101,7 +101,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_compare(arguments: argparse.Namespace) -> int:
     if arguments.study is not None:
         return _compare_study(arguments)
     if arguments.reference is None:

@@ -1,4 +1,4 @@
-"""The desktop application: ``carpus`` without a command, and ``carpus demo``."""
+"""The desktop application: ``carpus`` without a command, ``carpus demo`` and ``carpus review``."""
 
 from __future__ import annotations
 
@@ -11,15 +11,10 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import print_fault, print_message
+from carpus.app.command_line import add_examples, print_fault, print_message, progress_bar
 from carpus.app.session_commands import log_folder_action
-from carpus.app.settings import (
-    Settings,
-    load_valid_settings,
-    with_data_folder,
-    with_saved_folder,
-)
-from carpus.core.model.errors import CarpusFault, FolderInUse
+from carpus.app.settings import Settings, load_settings, load_valid_settings, with_data_folder, with_saved_folder
+from carpus.core.model.errors import CarpusFault, FolderInUse, SessionMissing
 from carpus.core.platform.durable import make_private_folder
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 
@@ -37,12 +32,40 @@ def has_display() -> bool:
     return not sys.platform.startswith("linux") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
-def run(arguments: argparse.Namespace) -> int:
-    return open_window(
-        getattr(arguments, "data_folder", None),
-        is_demo=False,
-        file=None if arguments.gdt is None else arguments.gdt.absolute(),
+def add_demo_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus demo --data-folder out/practice")
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="data folder to use (default: your own)")
+    parser.add_argument(
+        "--unattended", action="store_true", help="run through all screens automatically, without a display"
     )
+
+
+def run_demo(arguments: argparse.Namespace) -> int:
+    if has_display() and not arguments.unattended:
+        return open_window(arguments.data_folder, is_demo=True)
+    from carpus.app import demo_driver
+    from carpus.app.desktop.log import start_log
+
+    start_log()
+    settings = with_data_folder(load_settings(), arguments.data_folder)
+    make_private_folder(settings.data_folder)
+    with progress_bar("the whole way", "repetition") as progress:
+        result = demo_driver.run_demo(settings, progress)
+    print(f"Session: {result.session}", f"Report:  {result.report}", *result.lines, sep="\n")
+    return 0
+
+
+def add_review_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus review session.h5")
+    parser.add_argument("session", type=Path, metavar="SESSION.h5", help="session file")
+    parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="data folder to use (default: your own)")
+
+
+def run_review(arguments: argparse.Namespace) -> int:
+    path = arguments.session.absolute()
+    if not path.is_file():  # whatever else is wrong with it, the window tells
+        raise SessionMissing(arguments.session)
+    return open_window(arguments.data_folder, is_demo=False, file=path)
 
 
 def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = None) -> int:

@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from itertools import chain
 from pathlib import Path
 
-from carpus.app.command_line import describe_camera_kinds, parse_camera_address
+from carpus.app.command_line import add_examples, describe_camera_kinds, parse_camera_address
 from carpus.app.settings import Settings, load_settings
 from carpus.core.calibration.card.checks import examine_cameras
 from carpus.core.capture.doctor import examine
@@ -15,11 +15,11 @@ from carpus.core.model.errors import CarpusFault
 from carpus.core.model.fault_text import format_fault_line
 from carpus.core.platform.version import __version__
 
-EXAMPLE = "carpus doctor --camera realsense"
 _MARK = {"good": "ok     ", "warning": "look   ", "bad": "missing"}
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_doctor_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus doctor --camera realsense")
     parser.add_argument(
         "--data-folder", type=Path, metavar="FOLDER", help="data folder to check (default: from the settings)"
     )
@@ -36,7 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_doctor(arguments: argparse.Namespace) -> int:
     worst, settings = 0, Settings()
     try:
         settings = load_settings()

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.command_line import add_region_option, print_fault, progress_bar
+from carpus.app.command_line import add_examples, add_region_option, print_fault, progress_bar
 from carpus.core.formats.export import FORMATS
 from carpus.core.model.names import describe_known_names
 
-EXAMPLE = "carpus export session.h5 --format csv,c3d --output out/export"
 ALL = "all"
 
 
@@ -23,7 +22,8 @@ def parse_formats(text: str) -> tuple[str, ...]:
     return tuple(FORMATS) if ALL in names else names
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_export_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus export session.h5 --format csv,c3d --output out/export")
     parser.add_argument(
         "sessions", type=Path, nargs="+", metavar="SESSION.h5", help="session files, or folders with sessions"
     )
@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_export(arguments: argparse.Namespace) -> int:
     from carpus.app.session_commands import find_session_files, log_export, read_choices
     from carpus.core.formats.export import ExportRequest, export_sessions
 

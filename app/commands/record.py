@@ -11,6 +11,7 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.app.command_line import (
+    add_examples,
     describe_camera_kinds,
     describe_wrong_suffix,
     number_type,
@@ -30,13 +31,13 @@ from carpus.core.model.errors import CarpusFault, OutputExists
 from carpus.core.model.types import Frame
 from carpus.core.pipeline.recording import Recorder
 
-EXAMPLE = "carpus record --output out/hand.carpusraw --seconds 30"
 MAX_RECORDING_S = 86400.0
 MAX_WAITING_FRAMES = 90
 """Three seconds of frames may wait for a slow disk."""
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_record_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus record --output out/hand.carpusraw --seconds 30")
     parser.add_argument(
         "--output", type=Path, required=True, metavar="RECORDING", help="new file (raw) or folder (tum)"
     )
@@ -65,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_record(arguments: argparse.Namespace) -> int:
     if arguments.lossless and arguments.format != "raw":
         return report_usage_error("record", "--lossless is for --format raw; a TUM folder is without loss already.")
     wrong = describe_wrong_suffix(arguments.output, (".carpusraw",))

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.command_line import output_type, print_message
+from carpus.app.command_line import add_examples, output_type, print_message
 from carpus.app.session_commands import log_created_files
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.model.errors import OutputExists
@@ -16,10 +16,9 @@ from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 
-EXAMPLE = "carpus report session.h5 --output report.pdf --language de"
 
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_report_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus report session.h5 --output report.pdf --language de")
     parser.add_argument("sessions", type=Path, nargs="+", metavar="SESSION.h5")
     parser.add_argument(
         "--output",
@@ -40,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_report(arguments: argparse.Namespace) -> int:
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     settings = load_settings()

@@ -13,15 +13,22 @@ from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import add_region_option, output_type, print_fault, print_json
-from carpus.app.session_commands import read_figures
+from carpus.app.command_line import (
+    add_examples,
+    add_region_option,
+    output_type,
+    print_fault,
+    print_json,
+    print_message,
+)
+from carpus.app.session_commands import read_results
 from carpus.core.model.errors import ReferenceUnreadable, StudyUnsuited
 from carpus.core.model.rounding import format_rounded
 
 if TYPE_CHECKING:
     from carpus.core.research.agreement.retest import RetestAnalysis
+    from carpus.core.results.session_results import SessionResults
 
-EXAMPLE = "carpus retest sessions --output retest.csv"
 _REASONS = {
     "once": "person measured once",
     "too_late": "more than 14 days after the first time",
@@ -35,7 +42,8 @@ _REASONS = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_retest_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus retest sessions --output retest.csv")
     parser.add_argument(
         "sessions", type=Path, nargs="+", metavar="SESSION.h5",
         help="session files, or folders with sessions. Each person (pseudonym) is measured at least twice, with the "
@@ -62,13 +70,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_region_option(parser)
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_retest(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.records.clinic_records import save_limits
     from carpus.core.research.agreement.retest import analyse_retests, list_retests, write_retests
 
-    figures, raters = read_figures(arguments.sessions, print_fault, _read_raters(arguments.raters))
-    found = analyse_retests(figures, raters)
+    results = read_results(arguments.sessions, print_fault)
+    if not results:
+        raise StudyUnsuited(arguments.sessions[0], "no session can be read")
+    found = analyse_retests([one for _, one in results], _find_raters(arguments.raters, results))
     if arguments.json:
         print_json(list_retests(found))
     else:
@@ -116,7 +126,8 @@ def _print_analyses(found: Sequence[RetestAnalysis]) -> None:
             )
 
 
-def _read_raters(path: Path | None) -> dict[str, str]:
+def _find_raters(path: Path | None, sessions: Sequence[tuple[Path, SessionResults]]) -> dict[str, str]:
+    """Return the raters of a table by session id."""
     if path is None:
         return {}
     from carpus.core.formats.table_read import read_table
@@ -124,5 +135,8 @@ def _read_raters(path: Path | None) -> dict[str, str]:
     table = read_table(path, ("session", "rater"))
     if not {name.lower() for name in table.names} >= {"session", "rater"}:
         raise ReferenceUnreadable(path, "a list of raters has the columns session and rater")
-    rows = map(table.row, range(len(table.rows)))
-    return {row["session"]: row["rater"] for row in rows}
+    raters = {row["session"]: row["rater"] for row in map(table.row, range(len(table.rows)))}
+    names = [(name, one.session_id) for file, one in sessions for name in (file.name, file.stem)]
+    for name in sorted(raters.keys() - {name for name, _ in names}):
+        print_message(f"no session is called {name}, which the list of raters names.")
+    return {session_id: raters[name] for name, session_id in names if name in raters}

@@ -8,7 +8,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from carpus.app.command_line import count_type, number_type, progress_bar
+from carpus.app.command_line import add_examples, count_type, number_type, progress_bar
 from carpus.core.model.depth_sensor import SENSORS
 from carpus.core.model.hand.protocols import protocol_names
 from carpus.core.model.names import describe_known_names
@@ -43,7 +43,6 @@ def names_type(known: Collection[str]) -> Callable[[str], str]:
 
 
 whole_number = count_type(-(2**31), 2**31 - 1)
-EXAMPLE = "carpus simulate --output out/demo --protocol wrist6"
 
 _OPTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     (
@@ -139,7 +138,8 @@ _SWITCHES = {
 }
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_simulate_arguments(parser: argparse.ArgumentParser) -> None:
+    add_examples(parser, "carpus simulate --output out/demo --protocol wrist6")
     defaults = {field.name: field.default for field in fields(RecordingSpec)}
     parser.add_argument(
         "--output",
@@ -172,7 +172,7 @@ def build_spec(arguments: argparse.Namespace) -> RecordingSpec:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
+def run_simulate(arguments: argparse.Namespace) -> int:
     from carpus.core.simulation.recording import simulate
 
     with progress_bar("rendering") as progress:

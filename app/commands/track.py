@@ -6,15 +6,12 @@ import argparse
 from datetime import datetime
 from pathlib import Path
 
-from carpus.app.command_line import count_type, number_type, output_type
+from carpus.app.command_line import add_examples, count_type, number_type, output_type
 from carpus.core.model.dates import to_iso
 from carpus.core.model.errors import NameUnsuited
 from carpus.core.model.hand.exercises import EXERCISES
 from carpus.core.model.names import normalize_name
 
-EXAMPLE = """carpus track out/demo --output out/demo.h5
-carpus track recordings --output sessions
-carpus track --manifest study.csv --output sessions"""
 MAX_START_DEG = 120.0
 EXERCISE_NAMES = tuple(exercise.id for exercise in EXERCISES)
 
@@ -38,7 +35,7 @@ def parse_moment(text: str) -> str:
         raise argparse.ArgumentTypeError(f"{text} is not a date such as 2023-04-05 or 2023-04-05T14:30") from None
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_track_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "recording",
         type=Path,
@@ -69,6 +66,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "A session is tracked with its previous settings, a recording with those of settings.toml,\n"
         "unless an option changes them."
+    )
+    add_examples(
+        parser,
+        "carpus track out/demo --output out/demo.h5",
+        "carpus track recordings --output sessions",
+        "carpus track --manifest study.csv --output sessions",
     )
 
 
@@ -189,7 +192,7 @@ def _add_recording_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
-    from carpus.app.commands.track_one import run_track  # the tracker, which no help text needs
+def run_track(arguments: argparse.Namespace) -> int:
+    from carpus.app.commands import track_one  # the tracker, which no help text needs
 
-    return run_track(arguments)
+    return track_one.run(arguments)

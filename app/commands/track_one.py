@@ -20,6 +20,7 @@ from carpus.app.sources import (
     SESSION_SUFFIX,
     find_clicks_file,
     is_batch,
+    is_recording,
     open_recording,
     warn_assumed_intrinsics,
 )
@@ -91,7 +92,7 @@ def _has_conflict(arguments: argparse.Namespace, settings: TrackSettings) -> boo
     return bool(told)
 
 
-def run_track(arguments: argparse.Namespace) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Track one recording, a session again, or many, and return the exit code."""
     named = arguments.recording
     if bool(named) == (arguments.manifest is not None):
@@ -120,6 +121,8 @@ def run_track(arguments: argparse.Namespace) -> int:
         print_message(COLOR_ONLY_WARNING)
     if not arguments.recording.exists():
         raise RecordingMissing(arguments.recording)
+    if arguments.recording.is_dir() and not is_recording(arguments.recording):
+        raise RecordingMissing(arguments.recording, "no recording in this folder; many need a folder as --output")
     if is_session:
         return _retrack_session(arguments, was_warned=not settings.uses_depth)
     beside = find_clicks_file(arguments.recording)

@@ -40,7 +40,7 @@ CatchUp = tuple[Sequence[RecoveredSession], Sequence[CarpusFault]]
 
 
 class ServerMonitor(QObject):
-    """Emits ``server_lost``, and ``server_restored`` with the result of :func:`recover`."""
+    """Emits ``server_lost``, and ``server_restored`` with the result of :func:`recover_sessions`."""
 
     server_lost = Signal()
     server_restored = Signal(object)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from PySide6.QtCore import QObject, Signal
 
 from carpus.app.desktop.main_controller import MainController
-from carpus.app.session_commands import read_figures
+from carpus.app.session_commands import read_results
 from carpus.app.settings import (
     LockSettings,
     PracticeSystemSettings,
@@ -80,7 +80,7 @@ class PreferencesController(QObject):
         settings, context = self.settings, self._controller.context
         now = {name: getattr(getattr(settings, part), of) for name, (part, of) in SETTING_PATHS.items()}
         chosen = Preferences(data_folder=self._shown_folder, **now)
-        return SettingsFlow(context, chosen, read_figures)
+        return SettingsFlow(context, chosen, read_results)
 
     def _apply_start_mode(self) -> None:
         self._controller.live.screen.recording.start_mode = self.settings.recording.start

@@ -9,7 +9,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from carpus.app import __main__ as command_line
-from carpus.app.commands import review
+from carpus.app.commands import desktop
 from tests.journeys.conftest import Open
 
 GOLDEN = Path(__file__).parents[1] / "session" / "golden" / "v2-wrist6.h5.xz"
@@ -60,6 +60,6 @@ def test_double_clicked_file_opens_like_the_command(
     assert command_line.main(["not there.h5"]) == 1
     assert "not there.h5" in capsys.readouterr().err
     opened: list[Path] = []
-    monkeypatch.setattr(review, "run", lambda arguments: opened.append(arguments.session) or 0)
+    monkeypatch.setattr(desktop, "run_review", lambda arguments: opened.append(arguments.session) or 0)
     assert command_line.main(["a.h5"]) == command_line.main(["review", "a.h5"]) == 0
     assert opened == [Path("a.h5")] * 2

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QDialog, QFileDialog, QPlainTextEdit, QWidget
 
 from carpus.core.measures.change_limits import RetestStudy
-from carpus.core.model.errors import CarpusFault
+from carpus.core.model.errors import CarpusFault, StudyUnsuited
 from carpus.core.platform.about import licence_texts
 from carpus.core.records.clinic_records import save_limits
 from carpus.core.research.agreement.retest import RetestAnalysis, analyse_retests
@@ -22,9 +22,7 @@ from carpus.ui.screens.settings.screen import SettingsPage, SettingsScreen
 from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.shell.view_models import Preferences
 
-ReadFiguresFunction = Callable[
-    [Sequence[Path], Callable[[CarpusFault], object]], tuple[list[SessionResults], dict[str, str]]
-]
+ReadResultsFunction = Callable[[Sequence[Path], Callable[[CarpusFault], object]], list[tuple[Path, SessionResults]]]
 """Reads sessions of files and folders, and reports those that cannot be read."""
 
 
@@ -34,11 +32,11 @@ class SettingsFlow(Flow):
     screen_name, guide_page = "settings", "data"
     screen: SettingsScreen
 
-    def __init__(self, context: ScreenContext, chosen: Preferences, read_figures: ReadFiguresFunction) -> None:
+    def __init__(self, context: ScreenContext, chosen: Preferences, read_results: ReadResultsFunction) -> None:
         measured = context.library.error_limits
         super().__init__(context, SettingsScreen(context.theme, chosen, measured))
         self.screen.demo_notice.setVisible(context.is_demo)
-        self._background, self._read_figures = Background(), read_figures
+        self._background, self._read_results = Background(), read_results
         self.retest_dialog = RetestDialog(context.window, context.theme)
         self.retest_dialog.accepted.connect(self._apply_limits)
         self.screen.retest_button.clicked.connect(self._compute_limits)
@@ -64,7 +62,10 @@ class SettingsFlow(Flow):
         unreadable: list[CarpusFault] = []
 
         def work() -> list[RetestAnalysis]:
-            return analyse_retests(*self._read_figures([Path(folder)], unreadable.append))
+            found = self._read_results([Path(folder)], unreadable.append)
+            if not found:
+                raise StudyUnsuited(folder, "no session can be read")
+            return analyse_retests([one for _, one in found])
 
         def on_done(found: list[RetestAnalysis]) -> None:
             self.screen.show_computing(on=False)
