@@ -6,7 +6,7 @@ queue                 where                        policy when full
 BoundedQueue          capture -> tracking          QueueFullError: the frame is dropped and counted
                       tracking or capture -> disk  the same: the recording ends with a fault
                       screen -> tracking           the same: the operator's label is dropped
-BlockingQueue         file -> tracking -> disk     the producer waits: nothing of a file is lost
+                      file -> tracking -> disk     is_blocking: the producer waits, nothing of a file is lost
 Mailbox               anything -> screen           only the newest value is kept
 ====================  ===========================  ===============================================
 """
@@ -29,13 +29,15 @@ class QueueClosedError(Exception):
     """Raised when an item is pushed into a closed queue."""
 
 
-class _BaseQueue(Generic[T]):
-    """Queue of ``capacity`` items for several producers and one consumer."""
+class BoundedQueue(Generic[T]):
+    """Queue of ``capacity`` items for several producers and one consumer, that never drops an accepted item.
 
-    def __init__(self, capacity: int) -> None:
-        if capacity < 1:
-            raise ValueError("a queue needs room for one item")
-        self.capacity = capacity
+    When it is full, :class:`QueueFullError` is raised; with ``is_blocking`` the producer waits for room, for sources
+    that can wait, such as files.
+    """
+
+    def __init__(self, capacity: int, *, is_blocking: bool = False) -> None:
+        self.capacity, self.is_blocking = capacity, is_blocking
         self._items: deque[T] = deque()
         self._condition = threading.Condition()
         self._closed = False
@@ -64,38 +66,22 @@ class _BaseQueue(Generic[T]):
                 self._condition.notify_all()
             yield item
 
-    def close(self) -> None:
-        """Accept no more items; queued ones can still be taken. May be called twice."""
-        with self._condition:
-            self._closed = True
-            self._condition.notify_all()
-
-
-class BoundedQueue(_BaseQueue[T]):
-    """Queue that never drops an accepted item and raises :class:`QueueFullError` when full."""
-
     def push(self, item: T) -> None:
-        """Add an item at once or raise."""
+        """Add an item; raises :class:`QueueClosedError` after the end."""
         with self._condition:
+            while self.is_blocking and len(self._items) >= self.capacity and not self._closed:
+                self._condition.wait()
             if self._closed:
                 raise QueueClosedError
-            if len(self._items) == self.capacity:
+            if len(self._items) >= self.capacity:
                 raise QueueFullError
             self._items.append(item)
             self._condition.notify_all()
 
-
-class BlockingQueue(_BaseQueue[T]):
-    """Queue whose producer waits for room, for sources that can wait, such as files."""
-
-    def push(self, item: T) -> None:
-        """Add an item when there is room; raises :class:`QueueClosedError` after the end."""
+    def close(self) -> None:
+        """Accept no more items; queued ones can still be taken. May be called twice."""
         with self._condition:
-            while len(self._items) >= self.capacity and not self._closed:
-                self._condition.wait()
-            if self._closed:
-                raise QueueClosedError
-            self._items.append(item)
+            self._closed = True
             self._condition.notify_all()
 
 

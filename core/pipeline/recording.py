@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import shutil
 import threading
@@ -19,7 +18,6 @@ from carpus.core.pipeline.live_values import LiveEventKind, LiveSettings
 from carpus.core.pipeline.queues import BoundedQueue, QueueClosedError, QueueFullError
 
 Item = TypeVar("Item")
-POLL_S = 0.2
 
 
 class Sink(Protocol):
@@ -75,8 +73,7 @@ class Recorder(Generic[SinkT, Item]):
         self._open_sink = open_sink
         self._write = write
         self._on_fault = on_fault
-        self._queue: BoundedQueue[Item] = BoundedQueue(capacity)
-        self._free_slots = threading.Semaphore(capacity) if is_blocking else None
+        self._queue: BoundedQueue[Item] = BoundedQueue(capacity, is_blocking=is_blocking)
         self._opened = threading.Event()
         self._lock = threading.Lock()
         self.fault: Exception | None = None
@@ -98,11 +95,7 @@ class Recorder(Generic[SinkT, Item]):
             raise self.fault
 
     def submit(self, item: Item) -> bool:
-        """Queue one item without waiting; return False if the recording has ended."""
-        if self._free_slots is not None:
-            while not self._free_slots.acquire(timeout=POLL_S):
-                if self.fault is not None:
-                    return False
+        """Queue one item; return False if the recording has ended."""
         try:
             self._queue.push(item)
         except QueueClosedError:
@@ -139,8 +132,6 @@ class Recorder(Generic[SinkT, Item]):
             for item in self._queue:
                 self._write(sink, item)
                 self.write_count += 1
-                if self._free_slots is not None:
-                    self._free_slots.release()
             if self._is_discarded:
                 sink.discard()
             else:
@@ -152,7 +143,7 @@ class Recorder(Generic[SinkT, Item]):
                 self.fault = cause  # raised by start()
             else:
                 self._fail(cause)
-                with contextlib.suppress(Exception):  # the first fault is the one to tell
+                with suppress(Exception):  # the first fault is the one to tell
                     sink.abandon()
         finally:
             self._opened.set()
@@ -270,14 +261,10 @@ class LiveRecording:
         else:
             sink.append(item)
         if self.row_recorder.write_count % _DISK_CHECK_ROWS == 0:
-            self.disk_free_bytes = read_free_bytes(sink.path.parent)
-            if (
-                self.disk_free_bytes is not None
-                and self.disk_free_bytes < self._low_disk_bytes
-                and not self._has_warned
-            ):
+            free = self.disk_free_bytes = read_free_bytes(sink.path.parent)
+            if free is not None and free < self._low_disk_bytes and not self._has_warned:
                 self._has_warned = True
-                self._on_event("disk_low", value=float(self.disk_free_bytes))
+                self._on_event("disk_low", value=float(free))
 
 
 def read_free_bytes(folder: Path | None) -> int | None:

@@ -12,7 +12,7 @@ from carpus.core.capture.files.raw import BYTES_PER_FRAME, RawRecording, RawWrit
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import Frame, TrackedFrame, TrackStatus
-from carpus.core.pipeline.hand_crop import HandRegions, compute_hand_region, mask_outside
+from carpus.core.pipeline.measurement import HandRegions, compute_hand_region, mask_outside
 from carpus.core.tracking.tracker import Tracker
 from tests.tracking.hands import CAMERA, RIGID, blobs, calibration, swing
 

@@ -12,9 +12,8 @@ import pytest
 
 from carpus.core.model.errors import CameraLost, CameraReturned, DiskTooSlow, FrameDamaged, OutputExists
 from carpus.core.model.types import Frame, TrackedFrame
-from carpus.core.pipeline import backlog
-from carpus.core.pipeline.backlog import MAX_PREVIEW_WAITING, compute_capacity
-from carpus.core.pipeline.live import LiveSession
+from carpus.core.pipeline import live as live_module
+from carpus.core.pipeline.live import MAX_PREVIEW_WAITING, LiveSession, compute_capacity
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
 from carpus.core.pipeline.queues import BoundedQueue, QueueFullError
 from tests.pipeline.live_fakes import (
@@ -566,7 +565,7 @@ def test_compute_capacity_little_memory_has_less(
     monkeypatch: pytest.MonkeyPatch, free_frames: int, capacity: int
 ) -> None:
     one = frame(0)
-    monkeypatch.setattr(backlog, "read_free_memory_bytes", lambda: free_frames * one.color_rgb.nbytes)
+    monkeypatch.setattr(live_module, "read_free_memory_bytes", lambda: free_frames * one.color_rgb.nbytes)
     assert compute_capacity(one, 100) == capacity
 
 
