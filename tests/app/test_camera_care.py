@@ -14,7 +14,6 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop import maintenance_cameras
 from carpus.app.desktop.window import Desktop
-from carpus.core.calibration.camera import board
 from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
 from carpus.core.capture.calibrated_source import load_stored_calibration
 from carpus.core.capture.source import SERIAL as SAID_SERIAL
@@ -64,7 +63,7 @@ def test_camera_calibration_leads_from_settings_to_card(
     journey, board = desktop.controller, desktop.controller.board.screen
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "board.pdf"), ""))
     monkeypatch.setattr(maintenance_cameras, "open_camera", lambda *_, **__: BoardCamera())
-    monkeypatch.setattr(board, "WANTED_VIEWS", 12)
+    monkeypatch.setattr("carpus.core.calibration.camera.board.WANTED_VIEWS", 12)
     journey.navigator.open_screen("settings")
     desktop.shell.findChild(CameraCard).calibrate_button.click()
     assert journey.place == "board"
