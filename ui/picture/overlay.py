@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QLineF, QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from carpus.core.model.camera import Camera
-from carpus.core.model.types import TrackedFrame, TrackStatus
-from carpus.ui.kit.theme import ON_PICTURE_LINE
+from carpus.core.model.hand.protocols import MarkerProtocol
+from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.ui.kit.theme import ON_PICTURE_LINE, ON_PICTURE_PARTLY
 
 HALO = QColor(0, 0, 0, 150)
 
@@ -33,25 +35,44 @@ def draw_with_halo(
         draw()
 
 
-def paint_markers(painter: QPainter, frame: TrackedFrame, to_screen: ToScreen) -> None:
+def paint_tracked_hand(
+    painter: QPainter, frame: TrackedFrame, protocol: MarkerProtocol, camera: Camera, to_screen: ToScreen
+) -> None:
+    """Draw the markers of a frame, with the bones of the whole hand or lines from the wrist over the palm."""
+    measured, places = frame.marker_measured_px, frame.marker_position_cam_m
+    is_known = frame.status != TrackStatus.LOST and bool(np.isfinite(places).all())
+    modelled = camera.distort(camera.project(places)) if is_known else np.full_like(measured, np.nan)
+    if protocol.has_fingers and is_known:
+        _paint_skeleton(painter, protocol, measured, modelled, to_screen)
+    elif not protocol.has_fingers:
+        painter.setPen(QPen(QColor(255, 255, 255, 150), 1.2))
+        for u, v in modelled[1:6] if is_known else ():
+            painter.drawLine(to_screen(*map(float, modelled[0])), to_screen(float(u), float(v)))
+        _paint_markers(painter, measured, frame.marker_predicted_px, 8.0, ON_PICTURE_LINE, to_screen)
+
+
+def _paint_skeleton(
+    painter: QPainter, protocol: MarkerProtocol, measured: FloatArray, modelled: FloatArray, to_screen: ToScreen
+) -> None:
+    """Draw the bones of the model: solid between visible markers, dashed where predicted."""
+    seen = np.isfinite(measured[:, 0])
+    at = [to_screen(float(u), float(v)) for u, v in np.where(seen[:, None], measured, modelled)]
+    bones = [ends for chain in protocol.chains.values() for ends in pairwise(chain)]
+    for width, is_dashed in ((2.0, False), (1.5, True)):
+        lines = [QLineF(at[a], at[b]) for a, b in bones if (seen[a] and seen[b]) != is_dashed]
+        draw_with_halo(painter, ON_PICTURE_LINE, width, partial(painter.drawLines, lines), is_dashed)
+    _paint_markers(painter, measured, modelled, 4.0, ON_PICTURE_PARTLY, to_screen)
+
+
+def _paint_markers(
+    painter: QPainter, measured: FloatArray, predicted: FloatArray, radius: float, color: str, to_screen: ToScreen
+) -> None:
     """Draw measured markers as dots, the others as dashed rings where they are predicted."""
-    for measured, predicted in zip(frame.marker_measured_px, frame.marker_predicted_px, strict=True):
-        if np.isfinite(measured).all():
+    for dot, ring in zip(measured, predicted, strict=True):
+        if np.isfinite(dot).all():
             painter.setPen(QPen(HALO, 1.5))
             painter.setBrush(QColor(ON_PICTURE_LINE))
-            painter.drawEllipse(to_screen(*map(float, measured)), 3.6, 3.6)
-        elif np.isfinite(predicted).all():
-            ring = partial(painter.drawEllipse, to_screen(*map(float, predicted)), 8.0, 8.0)
-            draw_with_halo(painter, ON_PICTURE_LINE, 1.5, ring, dash=True)
-
-
-def paint_palm_links(painter: QPainter, frame: TrackedFrame, camera: Camera, to_screen: ToScreen) -> None:
-    """Draw thin lines from the wrist to the other palm markers of the model."""
-    places = frame.marker_position_cam_m
-    if frame.status == TrackStatus.LOST or not np.isfinite(places).all():
-        return
-    pixel = camera.distort(camera.project(places))
-    wrist = to_screen(*map(float, pixel[0]))
-    painter.setPen(QPen(QColor(255, 255, 255, 150), 1.2))
-    for u, v in pixel[1:6]:
-        painter.drawLine(wrist, to_screen(float(u), float(v)))
+            painter.drawEllipse(to_screen(*map(float, dot)), 3.6, 3.6)
+        elif np.isfinite(ring).all():
+            at = to_screen(*map(float, ring))
+            draw_with_halo(painter, color, 1.5, partial(painter.drawEllipse, at, radius, radius), dash=True)

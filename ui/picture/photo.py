@@ -11,7 +11,7 @@ from carpus.core.model.types import ByteImage
 from carpus.ui.kit.fonts import SEMIBOLD, font
 from carpus.ui.kit.icons import paint_state
 from carpus.ui.kit.theme import CARD_RADIUS_PX, LIGHT, ON_PICTURE_LABEL, Theme
-from carpus.ui.picture.convert import to_qimage
+from carpus.ui.picture.view import to_qimage
 
 LABEL_ALPHA = 180
 # A marker's blue is so much above its red and green; the photo reaches so many times the markers' extent from their
@@ -37,8 +37,7 @@ def crop_to_markers(color_rgb: ByteImage) -> ByteImage:
 
 def fit_box(size: QSize, bounds: QRectF) -> QRectF:
     """Return the largest box with the image's aspect ratio, centred in ``bounds``."""
-    scale = min(bounds.width() / max(size.width(), 1), bounds.height() / max(size.height(), 1))
-    box = QRectF(0.0, 0.0, scale * size.width(), scale * size.height())
+    box = QRectF(QPointF(), QSizeF(size).scaled(bounds.size(), Qt.AspectRatioMode.KeepAspectRatio))
     box.moveCenter(bounds.center())
     return box
 

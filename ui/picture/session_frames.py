@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from typing import Generic, TypeVar
 
@@ -126,11 +127,28 @@ class SessionFrameView(FrameView):
     def paint_markers(
         self, painter: QPainter, session: Session, spots: FloatArray, seen: BoolArray, finger: int = 0
     ) -> None:
-        """Paint markers and bones of the hand, of one finger (0 for all), or of the palm."""
-        if session.header.joint_names:
-            paint_skeleton(painter, self, session.header.protocol, spots, seen, finger)
-        else:
-            paint_palm(painter, self, spots, seen)
+        """Paint markers and bones of the hand, of one finger (0 for all), or lines from the wrist over the palm.
+
+        ``spots`` (M, 2) are pixels, ``seen`` (M,) tells which were visible.
+        """
+        is_hand = bool(session.header.joint_names)
+        bones = [(0, palm, 2.0) for palm in range(1, 6)] if np.isfinite(spots).all() else []
+        radius, width, dot = 10.0, 2.0, 2.5
+        if is_hand:
+            chains, (radius, width, dot) = session.header.protocol.chains, (5.5, 1.5, 1.8)
+            bones = [(*ends, 2.5 if number == finger else 1.5) for number, chain in chains.items()
+                     for ends in pairwise(chain) if np.isfinite(spots[[*ends]]).all()]  # fmt: skip
+        at = [self.to_screen(float(u), float(v)) for u, v in spots]
+        for a, b, wide in bones:
+            is_dashed = is_hand and not (seen[a] and seen[b])
+            draw_with_halo(painter, ON_PICTURE_LINE, wide, partial(painter.drawLine, at[a], at[b]), is_dashed)
+        for place, spot, is_seen in zip(at, spots, seen, strict=True):
+            if np.isfinite(spot).all():
+                ring = partial(painter.drawEllipse, place, radius, radius)
+                draw_with_halo(painter, ON_PICTURE_LINE, width, ring, dash=not is_seen)
+                if is_seen:
+                    painter.setBrush(QColor(ON_PICTURE_LINE))
+                    painter.drawEllipse(place, dot, dot)
 
 
 def project_markers(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
@@ -140,60 +158,6 @@ def project_markers(camera: Camera, position_cam_m: FloatArray) -> FloatArray:
     if known.any():
         out[known] = camera.distort(camera.project(position_cam_m[known]))
     return out
-
-
-def paint_palm(painter: QPainter, picture: FrameView, spots: FloatArray, seen: np.ndarray) -> None:
-    """Paint lines from the wrist to the palm and a ring around each marker.
-
-    ``spots`` (M, 2) are pixels, ``seen`` (M,) tells which were visible.
-    """
-    if np.isfinite(spots).all():
-        wrist = picture.to_screen(*map(float, spots[0]))
-        for u, v in spots[1:6]:
-            end = picture.to_screen(float(u), float(v))
-            draw_with_halo(painter, ON_PICTURE_LINE, 2.0, lambda end=end: painter.drawLine(wrist, end))  # type: ignore[misc]
-    for spot, is_seen in zip(spots, seen, strict=True):
-        if np.isfinite(spot).all():
-            at = picture.to_screen(*map(float, spot))
-            draw_with_halo(
-                painter,
-                ON_PICTURE_LINE,
-                2.0,
-                lambda at=at: painter.drawEllipse(at, 10, 10),  # type: ignore[misc]
-                dash=not is_seen,
-            )
-            if is_seen:
-                painter.setBrush(QColor(ON_PICTURE_LINE))
-                painter.drawEllipse(at, 2.5, 2.5)
-
-
-def paint_skeleton(
-    painter: QPainter,
-    picture: FrameView,
-    protocol: MarkerProtocol,
-    spots: FloatArray,
-    seen: np.ndarray,
-    finger: int = 0,
-) -> None:
-    """Paint bones and markers.
-
-    ``spots`` (M, 2) are pixels, ``seen`` (M,) tells which were visible; ``finger`` 0 for all.
-    """
-    for number, chain in protocol.chains.items():
-        for a, b in pairwise(chain):
-            if np.isfinite(spots[[a, b]]).all():
-                start, end = (picture.to_screen(float(u), float(v)) for u, v in spots[[a, b]])
-                width = 2.5 if number == finger else 1.5
-                line = lambda start=start, end=end: painter.drawLine(start, end)  # noqa: E731
-                draw_with_halo(painter, ON_PICTURE_LINE, width, line, dash=not (seen[a] and seen[b]))
-    for spot, is_seen in zip(spots, seen, strict=True):
-        if np.isfinite(spot).all():
-            at = picture.to_screen(float(spot[0]), float(spot[1]))
-            ring = lambda at=at: painter.drawEllipse(at, 5.5, 5.5)  # noqa: E731
-            draw_with_halo(painter, ON_PICTURE_LINE, 1.5, ring, dash=not is_seen)
-            if is_seen:
-                painter.setBrush(QColor(ON_PICTURE_LINE))
-                painter.drawEllipse(at, 1.8, 1.8)
 
 
 def paint_trails(

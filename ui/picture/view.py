@@ -11,11 +11,19 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.model.types import ByteImage, FloatArray
 from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
-from carpus.ui.picture.convert import to_qimage
 
 Overlay = Callable[[QPainter, "FrameView"], None]
 PALM_AREA_FACTOR, HAND_AREA_FACTOR = 2.0, 1.3
 """Size of the hand area relative to the box of the palm's or the whole hand's markers, with room to move."""
+
+
+def to_qimage(color_rgb: ByteImage) -> QImage:
+    """Return a QImage that owns its pixels; one over the array would outlive it."""
+    picture = np.ascontiguousarray(color_rgb)
+    height, width = picture.shape[:2]
+    borrowed = QImage(picture.data, width, height, 3 * width, QImage.Format.Format_RGB888)
+    # The other format makes it a copy, and is drawn three times as fast.
+    return borrowed.convertToFormat(QImage.Format.Format_RGB32)
 
 
 class FrameView(QWidget):
@@ -24,11 +32,13 @@ class FrameView(QWidget):
     def __init__(self, theme: Theme, hint_px: tuple[int, int] = (520, 390)) -> None:
         super().__init__()
         self._theme, self._hint_px = theme, hint_px
-        self._image: QImage | None = None
+        self.image: QImage | None = None
         self._shown_area: QRectF | None = None
-        self._is_whole = False
+        # Whether the whole frame is shown, or the hand area.
+        self.is_whole = False
         self._top_margin_px, self._bottom_margin_px = 0, 0
-        self._scale, self._offset = 1.0, QPointF(0, 0)
+        # Screen pixels per frame pixel, and where the frame's corner is.
+        self.scale, self._offset = 1.0, QPointF(0, 0)
         self.overlay: Overlay | None = None
         self.empty_text = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -37,22 +47,17 @@ class FrameView(QWidget):
 
     def show_frame(self, color_rgb: ByteImage) -> None:
         """Copy and show a frame."""
-        first = self._image is None or self._image.width() != color_rgb.shape[1]
-        self._image = to_qimage(color_rgb)
+        first = self.image is None or self.image.width() != color_rgb.shape[1]
+        self.image = to_qimage(color_rgb)
         if first:
             self._update_transform()
         self.update()
 
     def clear(self, words: str = "") -> None:
         """Show black with a reason, never an old frame as if it were current."""
-        self._image = None
+        self.image = None
         self.empty_text = words
         self.update()
-
-    @property
-    def image(self) -> QImage | None:
-        """The frame shown."""
-        return self._image
 
     def set_hand_area(self, pixel: FloatArray | None, area_factor: float = PALM_AREA_FACTOR) -> None:
         """Fix the view on the markers (M, 2) in pixels, or on the whole frame."""
@@ -75,52 +80,42 @@ class FrameView(QWidget):
 
     def set_whole(self, is_whole: bool) -> None:
         """Show the whole frame, or the hand area."""
-        self._is_whole = is_whole
+        self.is_whole = is_whole
         self._update_transform()
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether the whole frame is shown."""
-        return self._is_whole
-
-    @property
-    def scale(self) -> float:
-        """Screen pixels per frame pixel."""
-        return self._scale
 
     def to_screen(self, u: float, v: float) -> QPointF:
         """Return the widget position of a frame pixel's centre."""
-        return QPointF((u + 0.5) * self._scale + self._offset.x(), (v + 0.5) * self._scale + self._offset.y())
+        return QPointF((u + 0.5) * self.scale + self._offset.x(), (v + 0.5) * self.scale + self._offset.y())
 
     def to_pixel(self, point: QPointF) -> FloatArray:
         """Return the frame pixel (2,) at a widget position."""
-        u = (point.x() - self._offset.x()) / self._scale - 0.5
-        v = (point.y() - self._offset.y()) / self._scale - 0.5
+        u = (point.x() - self._offset.x()) / self.scale - 0.5
+        v = (point.y() - self._offset.y()) / self.scale - 0.5
         return np.array([u, v])
 
     def _update_transform(self) -> None:
         """Fit the area into the widget, never smaller than needed to cover it."""
-        if self._image is None or not self.width():
+        if self.image is None or not self.width():
             return
-        width, height = float(self._image.width()), float(self._image.height())
+        width, height = float(self.image.width()), float(self.image.height())
         cover = max(self.width() / width, self.height() / height)
         area, above = self._shown_area, 0.5 * self.height()
-        if self._is_whole or area is None:
-            self._scale = min(self.width() / width, self.height() / height) if self._is_whole else cover
+        if self.is_whole or area is None:
+            self.scale = min(self.width() / width, self.height() / height) if self.is_whole else cover
             middle = QPointF(width / 2, height / 2)
         else:
             free = self.height() - self._top_margin_px - self._bottom_margin_px
             above = self._top_margin_px + 0.5 * free
-            self._scale = max(cover, min(self.width() / area.width(), free / area.height()))
+            self.scale = max(cover, min(self.width() / area.width(), free / area.height()))
             middle = area.center()
-        shown_w, shown_h = self.width() / self._scale, self.height() / self._scale
+        shown_w, shown_h = self.width() / self.scale, self.height() / self.scale
         left = (width - shown_w) / 2 if shown_w >= width else min(max(middle.x() - shown_w / 2, 0), width - shown_w)
         top = (
             (height - shown_h) / 2
             if shown_h >= height
-            else min(max(middle.y() - above / self._scale, 0), height - shown_h)
+            else min(max(middle.y() - above / self.scale, 0), height - shown_h)
         )
-        self._offset = QPointF(-left * self._scale, -top * self._scale)
+        self._offset = QPointF(-left * self.scale, -top * self.scale)
         self.update()
 
     def sizeHint(self) -> QSize:
@@ -139,12 +134,12 @@ class FrameView(QWidget):
         frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
         painter.setClipPath(frame)
         painter.fillRect(self.rect(), QColor("#10181A"))
-        if self._image is None:
+        if self.image is None:
             painter.setPen(QColor("#A9B6B9"))
             place = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
             painter.drawText(self.rect().adjusted(12, 0, -12, 0), place, self.empty_text)
         else:
-            self._paint_image(painter, self._image)
+            self._paint_image(painter, self.image)
         if self.hasFocus() and self.property("shows_own_focus"):
             painter.setPen(QPen(self._theme.color("accent"), 2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -153,11 +148,11 @@ class FrameView(QWidget):
     def _paint_image(self, painter: QPainter, image: QImage) -> None:
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         size = image.size()
-        target = QRectF(self._offset.x(), self._offset.y(), size.width() * self._scale, size.height() * self._scale)
+        target = QRectF(self._offset.x(), self._offset.y(), size.width() * self.scale, size.height() * self.scale)
         visible = target.intersected(QRectF(self.rect()))
         source = QRectF(
-            (visible.left() - target.left()) / self._scale, (visible.top() - target.top()) / self._scale,
-            visible.width() / self._scale, visible.height() / self._scale,
+            (visible.left() - target.left()) / self.scale, (visible.top() - target.top()) / self.scale,
+            visible.width() / self.scale, visible.height() / self.scale,
         )  # fmt: skip
         painter.drawImage(visible, image, source)
         if self.overlay is not None:

@@ -25,8 +25,8 @@ from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, fill, ro
 from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from carpus.ui.picture import overlay, skeleton
 from carpus.ui.picture.movement_guide import ExerciseSnapshot
+from carpus.ui.picture.overlay import paint_tracked_hand
 from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
 from carpus.ui.screens.live.controls import NoteDialog, PainDialog, RecordingControls
 from carpus.ui.screens.live.number_card import NumberCard, Reading, current_reading
@@ -356,11 +356,7 @@ class LiveScreen(FittedWidget):
         if self._tracked_view is None or measuring is None or set_up is None or self._lag.lag_s:
             return
         frame, camera = self._tracked_view.tracked, measuring.camera
-        if set_up.protocol.has_fingers:
-            skeleton.paint_skeleton(painter, frame, set_up.protocol, camera, picture.to_screen)
-        else:
-            overlay.paint_palm_links(painter, frame, camera, picture.to_screen)
-            overlay.paint_markers(painter, frame, picture.to_screen)
+        paint_tracked_hand(painter, frame, set_up.protocol, camera, picture.to_screen)
 
     def _show_counters(self) -> None:
         measuring, count = self.recording.measuring, self.recording.counter

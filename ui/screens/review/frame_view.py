@@ -22,11 +22,10 @@ from carpus.ui.kit.field import ChoiceButton
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import DARK, ON_PICTURE_LINE, Theme
 from carpus.ui.kit.translate import tr
-from carpus.ui.picture.convert import to_qimage
 from carpus.ui.picture.overlay import ToScreen, draw_with_halo
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.session_frames import SessionFrameView, paint_trails
-from carpus.ui.picture.view import FrameView
+from carpus.ui.picture.view import FrameView, to_qimage
 from carpus.ui.screens.review.reviewed_session import ReviewedSession
 
 # Length of the fingertip paths.
