@@ -27,8 +27,8 @@ from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.results.progress import compute_progress
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.history import History
+from carpus.ui.charts.panel import screen_style
 from carpus.ui.charts.progress import place_panels
-from carpus.ui.charts.style import screen_style
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.text import StateText, Text
 from carpus.ui.kit.theme import Theme

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QRectF
 
 from carpus.core.results.motion_curves import compute_motion_curves
-from carpus.ui.charts.paths import PathsChart, PlaneItem, finger_paths
+from carpus.ui.charts.motion import ACROSS, PathsChart, finger_paths
 from carpus.ui.kit.theme import Theme
 from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
@@ -25,16 +25,12 @@ BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 
 def test_thumb_side_is_on_its_side_of_panel_for_both_hands(theme: Theme) -> None:
     for side, thumb_left in (("right", True), ("left", False)):
-        plot = finger_paths(
-            compute_motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0
-        )
-        chart = PathsChart(theme, plot)
+        session = hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)
+        paths = finger_paths(compute_motion_curves(session))
+        chart = PathsChart(theme, paths, side)
         chart.area = BOX
         chart.build()
-        item = next(one for one in chart.plots[0].childGroup.childItems() if isinstance(one, PlaneItem))
-        x = [
-            float(np.nanmean(item._project_positions(item.plot.local_panel, way.position_mm)[0])) for way in plot.paths
-        ]
+        x = [float(np.nanmean(chart.plots[0].panel.x(path.position_mm[:, ACROSS[0]]))) for path in paths]
         assert (x[0] < x[4]) is thumb_left
 
 

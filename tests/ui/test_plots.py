@@ -22,12 +22,11 @@ from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import compute_session_results
 from carpus.core.results.valid_data import WristCurves, joint_curves, wrist_curves
-from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.history import History
 from carpus.ui.charts.live_curves import LiveCurves
-from carpus.ui.charts.series import Curve, CurveDrawing, Series, decimate
+from carpus.ui.charts.panel import Panel, Scale, screen_style
+from carpus.ui.charts.series import Curve, Series, decimate, draw_curves
 from carpus.ui.charts.session import SessionChart, SessionPlot
-from carpus.ui.charts.style import screen_style
 from carpus.ui.kit.numbers import format_with_sd
 from carpus.ui.kit.theme import Theme
 from tests.ui.fakes import FakeFeed, figures_once, session
@@ -50,7 +49,7 @@ def view(qtbot: QtBot, theme: Theme) -> Iterator[SessionChart]:
 
 
 def center(view: SessionChart) -> QPointF:
-    return QPointF(view.panels()[0][0].box.center().toPoint())
+    return QPointF(view.plots[0].panel.box.center().toPoint())
 
 
 def move(face: QWidget, at: QPointF, button: Qt.MouseButton = Qt.MouseButton.NoButton) -> None:
@@ -83,12 +82,12 @@ def wheel(
 def test_chart_drag_when_zoomed_moves_all_panels(qtbot: QtBot, view: SessionChart) -> None:
     view.show_window((20.0, 30.0))
     view.set_time(28.0)
-    box = view.panels()[0][0].box
+    box = view.plots[0].panel.box
     drag(qtbot, view.mouse_target, center(view), -round(box.width() / 5))
-    assert view.zoom_range == pytest.approx((22.0, 32.0), abs=0.1)
+    assert view._window == pytest.approx((22.0, 32.0), abs=0.1)
     drag(qtbot, view.mouse_target, center(view), 10 * round(box.width()))
-    assert view.zoom_range == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
-    assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view.zoom_range)] * 3
+    assert view._window == pytest.approx((0.0, 10.0), abs=1e-6), "no further than the beginning"
+    assert [tuple(own.viewRange()[0]) for own in view.plots] == [pytest.approx(view._window)] * 3
 
 
 def test_frame_is_of_print_size_drawing_of_lines_and_folder_that_is_not_there_is_reported(
@@ -128,8 +127,8 @@ def test_twenty_minutes_are_drawn_with_few_points_and_every_peak() -> None:
     angles[17_000, 1] = 83.0
     curves = WristCurves(time_s, angles, np.ones_like(angles), np.zeros(len(time_s), dtype=int))
     plot = SessionPlot(curves, get_exercise("WRIST_FE"), ())
-    for window in (None, (500.0, 900.0), (560.0, 570.0)):
-        drawn = SessionPlot(curves, plot.exercise, (), window_s=window).visible_curves(1, 600)[0].series
+    for window in ((0.0, MINUTES_20_S), (500.0, 900.0), (560.0, 570.0)):
+        drawn = plot.visible_curves(1, 600, window)[0].series
         assert len(drawn.time_s) <= 3 * 600
         assert drawn.value.max() == 83.0
         assert not drawn.gaps_s()
@@ -141,7 +140,7 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
     image.fill(QColor("white"))
     painter = QPainter(image)
     panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), start_s, end_s)
-    CurveDrawing(screen_style(theme), [(panel, [Curve(series, "flexion")])]).paint(painter, screen_style(theme), 0)
+    draw_curves(painter, screen_style(theme), panel, [Curve(series, "flexion")])
     painter.end()
     return pixels(image)[..., :3].astype(np.float64)
 
@@ -172,7 +171,7 @@ def test_chart_ignores_mouse_during_recording(qtbot: QtBot, theme: Theme) -> Non
     history.append(feed.frames[:300])
     curves.draw()
     before = [box.viewRange() for box in curves.plots]
-    at = QPointF(curves.panels()[0][0].box.center().toPoint())
+    at = QPointF(curves.plots[0].panel.box.center().toPoint())
     for turn in (120, -120):
         wheel(curves.mouse_target, at, turn)
     drag(qtbot, curves.mouse_target, at, 80)
@@ -220,12 +219,12 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
 
 def test_chart_wheel_scrolls_pans_or_zooms(view: SessionChart) -> None:
     assert not wheel(view.mouse_target, center(view), 120), "the page that it lies on scrolls"
-    assert view.zoom_range is None
+    assert view._window is None
     assert wheel(view.mouse_target, center(view), 120, Qt.KeyboardModifier.ControlModifier)
-    assert view.zoom_range is not None
+    assert view._window is not None
     view.show_window((20.0, 30.0))
     wheel(view.mouse_target, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
-    assert view.zoom_range == pytest.approx((21.0, 31.0))
+    assert view._window == pytest.approx((21.0, 31.0))
 
 
 def test_keys_zoom_about_the_cursor_and_show_all(view: SessionChart) -> None:
@@ -239,7 +238,7 @@ def test_keys_zoom_about_the_cursor_and_show_all(view: SessionChart) -> None:
         view.zoom_in()
     assert np.ptp(view.x_range()) == pytest.approx(2.0)
     view.show_all()
-    assert view.zoom_range is None
+    assert view._window is None
 
 
 def test_session_chart_zoomed_to_repetitions_greys_what_lies_before_and_after(view: SessionChart) -> None:
@@ -247,41 +246,41 @@ def test_session_chart_zoomed_to_repetitions_greys_what_lies_before_and_after(vi
     some = plot.repetitions[2:5]
     view.show_plot(replace(plot, repetitions=some, current=1))
     view.show_repetitions()
-    assert view.zoom_range == pytest.approx((some[0].start_s - 1.0, some[-1].end_s + 1.0))
-    for window in (view.zoom_range, None):
+    assert view._window == pytest.approx((some[0].start_s - 1.0, some[-1].end_s + 1.0))
+    for window in (view._window, None):
         view.show_window(window)
-        before, after, during = view._plot.visible_curves(1, 600)
+        before, after, during = view._plot.visible_curves(1, 600, view.x_range())
         assert (before.token, after.token, during.token) == ("border", "border", "flexion")
         step_s = during.series.max_step_s
         assert during.series.time_s[[0, -1]] == pytest.approx([some[0].start_s, some[-1].end_s], abs=step_s)
         assert before.series.time_s[-1] == pytest.approx(some[0].start_s, abs=step_s)
         assert after.series.time_s[0] == pytest.approx(some[-1].end_s, abs=step_s)
     view.show_window((some[0].start_s, some[-1].end_s))
-    assert [one.token for one in view._plot.visible_curves(1, 600)] == ["flexion"]
+    assert [one.token for one in view._plot.visible_curves(1, 600, view.x_range())] == ["flexion"]
 
 
 def test_chart_cursor_can_be_dragged(qtbot: QtBot, view: SessionChart) -> None:
-    panel = view.panels()[0][0]
+    panel = view.plots[0].visible_panel
     view.set_time(8.0)
     moved: list[float] = []
     view.cursor_moved.connect(moved.append)
     drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
-    assert moved[-1] == pytest.approx(view.to_time(float(panel.x(8.0)) + 60), abs=0.2)
-    assert view.zoom_range is None
+    assert moved[-1] == pytest.approx(view.plots[0].visible_panel.to_time(float(panel.x(8.0)) + 60), abs=0.2)
+    assert view._window is None
     view.show_window((5.0, 15.0))
     moved.clear()
-    panel = view.panels()[0][0]
+    panel = view.plots[0].visible_panel
     drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
     assert moved
-    assert view.zoom_range == (5.0, 15.0)
+    assert view._window == (5.0, 15.0)
 
 
 def test_chart_point_shows_time_value_and_spread(view: SessionChart) -> None:
-    panel, column = view.panels()[0]
+    panel, column = view.plots[0].visible_panel, view.plots[0].key
     plot = view._plot
     at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
     time_s, *values = view.describe_values(at)
-    shown = plot.read_values(column, view.to_time(at.x()))[0]
+    shown = plot.read_values(column, view.plots[0].visible_panel.to_time(at.x()))[0]
     assert time_s.startswith("00:1")
     assert values == [f"{shown.name} {format_with_sd(shown.value_deg, shown.sd_deg)}"]
     assert "±" in values[0]

@@ -10,7 +10,6 @@ from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.results.progress import Progress, ProgressPoint, compute_progress
-from carpus.ui.charts import progress
 from carpus.ui.charts.progress import ProgressChart, panel_keys
 from carpus.ui.kit.theme import Theme
 from tests.ui.fakes import FakeSessions, figures_once, session
@@ -34,12 +33,8 @@ def chart(qtbot: QtBot, theme: Theme, store: FakeSessions) -> Iterator[ProgressC
 
 
 def place(chart: ProgressChart, number: int) -> QPointF:
-    key = chart.panels()[0][1]
-    at_s = chart._progress.points[number].results.when.timestamp()
-    plot = chart.plots[0]
-    row = progress.find_session_measure(chart._progress, number, key)
-    assert row is not None
-    return QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean)))
+    key = chart.plots[0].key
+    return next(at for one, of, at in chart.points() if (one, of) == (number, key))
 
 
 def test_progress_chart_point_has_date_value_and_remarks(chart: ProgressChart) -> None:
@@ -47,7 +42,7 @@ def test_progress_chart_point_has_date_value_and_remarks(chart: ProgressChart) -
         move(chart.mouse_target, QPointF(place(chart, number).toPoint()))
         assert chart.current_session == number
         assert chart.mouse_target.cursor().shape() == Qt.CursorShape.PointingHandCursor
-    key = chart.panels()[0][1]
+    key = chart.plots[0].key
     newest = " · ".join(chart.describe_point(6, key))
     for word in ("20 Nov 2026", "Total arc", "±", "repetitions", "Camera 66 cm away", "stopped for pain"):
         assert word in newest, word

@@ -43,7 +43,7 @@ def test_keys_and_mouse_go_to_pictures_and_repetitions(qtbot: QtBot, screen: Rev
     stopped = playing.time_s
     qtbot.waitUntil(lambda: not screen.frame_view.reader.is_busy)
     assert playing.time_s == stopped
-    panel = screen.charts.curves.panels()[1][0]
+    panel = screen.charts.curves.plots[1].visible_panel
     spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
     qtbot.mouseClick(screen.charts.curves.mouse_target, Qt.MouseButton.LeftButton, pos=spot)
     assert playing.time_s == pytest.approx(40.0, abs=0.2)
@@ -106,7 +106,7 @@ def test_edges_of_repetition_are_moved_by_keys_and_dragged_by_mouse(
     assert after.start_s == pytest.approx(before.start_s + 0.1)
     assert after.end_s == before.end_s
     qtbot.waitUntil(lambda: "session-7" in store.kept)
-    panel = screen.charts.curves.panels()[0][0]
+    panel = screen.charts.curves.plots[0].visible_panel
     start = QPoint(round(float(panel.x(after.end_s))), round(panel.box.center().y()))
     drag(qtbot, screen.charts.curves.mouse_target, QPointF(start), -12)
     assert screen.results.repetitions[2].end_s < after.end_s - 0.5

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.model.hand.protocols import SITES
-from carpus.ui.charts.session import HandPlot, read_joint_angle
+from carpus.ui.charts.session import HandPlot
 from carpus.ui.screens.review.screen import ReviewScreen
 from carpus.ui.words.finger_angles import FingerAngle
 from tests.ui.conftest import Reviewing
@@ -43,7 +43,7 @@ def test_curve_is_dashed_where_its_markers_were_hidden_and_open_where_hand_was_l
     assert np.array_equal(series.predicted[value], ~known[value])
     series = plot.joint_series(FingerAngle(2, "knuckle"))
     assert any(start < 31.5 < end for start, end in series.gaps_s())
-    assert math.isnan(read_joint_angle(plot, FingerAngle(2, "knuckle"), 31.5)[0])
-    value_deg, _, hidden = read_joint_angle(plot, FingerAngle(3, "end"), 1.0)
+    assert math.isnan(series.read_value(31.5)[0])
+    value_deg, _, hidden = plot.joint_series(FingerAngle(3, "end")).read_value(1.0)
     assert hidden, "an end joint without measurement of its own is never seen"
-    assert value_deg == pytest.approx(2.0 / 3.0 * read_joint_angle(plot, FingerAngle(3, "middle"), 1.0)[0])
+    assert value_deg == pytest.approx(2.0 / 3.0 * plot.joint_series(FingerAngle(3, "middle")).read_value(1.0)[0])

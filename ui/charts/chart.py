@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Any
 
@@ -25,10 +25,8 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QSizePolicy, QWidget
 
 from carpus.core.model.types import FloatArray
-from carpus.ui.charts import axes
-from carpus.ui.charts.axes import Panel
-from carpus.ui.charts.series import Curve, CurveDrawing
-from carpus.ui.charts.style import RIGHT_MIDDLE, PlotStyle, dash_pen, draw_text, screen_style
+from carpus.ui.charts.panel import Panel, PlotStyle, Scale, draw_hatching, draw_text, screen_style
+from carpus.ui.charts.series import Curve, draw_curves
 from carpus.ui.kit.card import paint_card
 from carpus.ui.kit.theme import Theme
 
@@ -58,12 +56,12 @@ class Plot(pg.ViewBox):
 
     mouse_handler: Any = None
 
-    def __init__(self, chart: Chart, panel: Panel) -> None:
+    def __init__(self, chart: Chart, panel: Panel, key: Any) -> None:
         super().__init__(enableMenu=False, enableMouse=False, defaultPadding=0.0)
         self.disableAutoRange()
         self.setFlag(self.GraphicsItemFlag.ItemHasNoContents)
         self.setBorder(QPen(Qt.PenStyle.NoPen))
-        self.chart, self.panel, self.plot_style = chart, panel, chart.plot_style
+        self.chart, self.panel, self.key, self.plot_style = chart, panel, key, chart.plot_style
         chart.add_item(self)
         self.setGeometry(panel.box)
         x, y = (panel.start_s, panel.end_s), (panel.scale.low, panel.scale.high)
@@ -73,11 +71,17 @@ class Plot(pg.ViewBox):
         self.setRange(xRange=x, yRange=y, padding=0.0)
 
     @property
+    def visible_panel(self) -> Panel:
+        """Panel in the chart, over the range that is visible now: that of the first, which the others follow."""
+        if self.chart.is_printing:
+            return self.panel
+        start, end = self.chart.plots[0].viewRange()[0]
+        return replace(self.panel, start_s=start, end_s=end)
+
+    @property
     def local_panel(self) -> Panel:
         """Panel in its own pixels, over the range that is visible now."""
-        panel = self.panel
-        start, end = (panel.start_s, panel.end_s) if self.chart.is_printing else self.viewRange()[0]
-        return Panel(QRectF(0.0, 0.0, panel.box.width(), panel.box.height()), panel.scale, start, end)
+        return replace(self.visible_panel, box=QRectF(QPointF(), self.panel.box.size()))
 
     def to_item_x(self, times: ArrayLike) -> FloatArray:
         """Return the x of times for an item in the panel.
@@ -103,15 +107,20 @@ class Plot(pg.ViewBox):
         return item
 
     # --- what is in it ------------------------------------------------------------------------------------
-    def pen(self, token: str, width: float = 1.0, dash: Sequence[float] = (), alpha: int = 255) -> QPen:
+    def pen(self, token: str, width: float = 1.0, dash: Sequence[float] = ()) -> QPen:
         """Return a pen ``width`` design pixels wide at any scale."""
-        pen = dash_pen(self.plot_style.color(token, alpha), width * self.plot_style.unit, dash)
+        pen = QPen(self.plot_style.color(token), width * self.plot_style.unit)
+        if dash:
+            pen.setDashPattern(dash)
         pen.setCosmetic(not self.chart.is_printing)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         return pen
 
-    def add_grid(self) -> None:
+    def add_grid(self, *, has_labels: bool = True) -> None:
+        """Add a line at each tick, with labels at the left."""
         self.add_to_layer(Grid(self), GRID)
+        if has_labels:
+            self.chart.add_axis(self, "left", scale_labels(self.panel.scale), 12)
 
     def add_bars(self, stretches: Sequence[tuple[float, float]], token: str) -> None:
         """Add coloured time spans with a seam.
@@ -135,35 +144,27 @@ class Plot(pg.ViewBox):
 
     def add_horizontal_line(
         self, value: float, token: str, dash: Sequence[float] = (8.0, 6.0), words: str = "", *, below: bool = False
-    ) -> Any:
+    ) -> None:
         """Add a line at a value with words at its left end; nothing if the value is NaN."""
-        if not math.isfinite(value):
-            return None
-        line = self.add_to_layer(
-            pg.InfiniteLine(float(self.to_item_y(value)), angle=0, pen=self.pen(token, 1.5, dash)), LINES
-        )
-        if words:
-            self.add_label(value, words, token, below=below)
-        return line
+        if math.isfinite(value):
+            pen = self.pen(token, 1.5, dash)
+            self.add_to_layer(pg.InfiniteLine(float(self.to_item_y(value)), angle=0, pen=pen), LINES)
+            if words:
+                self.add_label(value, words, token, below=below)
 
     def add_label(
         self, value: float, words: str, token: str = "text2", *, below: bool = False, small: bool = False
-    ) -> Any:
+    ) -> None:
         """Add words at the left end, just above or below a value."""
         unit = self.plot_style.unit
         face = self.plot_style.label_font if small else self.plot_style.end_label_font
         item = self.chart.add_text(words, face, token, (0.0, 0.0 if below else 1.0))
         panel = self.panel
         item.setPos(panel.box.left() + 6 * unit, float(panel.y(value)) + (3 * unit if below else -2 * unit))
-        return item
-
-    def scene_x(self, time: float) -> float:
-        """Return the x of a time in the chart, for the range that is visible now."""
-        return float(self.panel.box.left() + self.local_panel.x(time))
 
     def add_line(
-        self, x: Sequence[float], y: Sequence[float], token: str, width: float = 0.0, dash: Sequence[float] = (),
-        connect: str = "all", layer: int = CURVES,
+        self, x: ArrayLike, y: ArrayLike, token: str, width: float = 0.0, dash: Sequence[float] = (),
+        connect: str | np.ndarray = "all", layer: int = CURVES,
     ) -> None:  # fmt: skip
         """Add a line through points, as wide as curves unless ``width`` is given."""
         pen = self.pen(token, width or self.plot_style.line_width / self.plot_style.unit, dash)
@@ -249,24 +250,16 @@ class Grid(PixelItem):
 
 
 class Curves(PixelItem):
-    """All curves of a panel with their bands and gaps; :class:`CurveDrawing` says why pyqtgraph's are not used."""
+    """All curves of a panel with their bands and gaps; :func:`draw_curves` says why pyqtgraph's are not used."""
 
-    def __init__(self, plot: Plot, *, is_cached: bool) -> None:
-        super().__init__(plot, is_cached=is_cached)
-        self.drawing: Callable[[Panel], tuple[CurveDrawing, int]] | None = None
+    curves: Sequence[Curve] = ()
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
-        self.set_drawing_source(lambda panel: (CurveDrawing(self.plot.plot_style, [(panel, curves)]), 0))
-
-    def set_drawing_source(self, drawing: Callable[[Panel], tuple[CurveDrawing, int]]) -> None:
-        """Set the function that returns a drawing of several panels and the number of this one."""
-        self.drawing = drawing
+        self.curves = curves
         self.update()
 
     def paint_pixels(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        if self.drawing is not None:
-            drawing, number = self.drawing(panel)
-            drawing.paint(painter, style, number)
+        draw_curves(painter, style, panel, self.curves)
 
 
 class Hatching(PixelItem):
@@ -294,7 +287,7 @@ class Hatching(PixelItem):
             left, right = (float(panel.x(at)) for at in np.clip((start, end), panel.start_s, panel.end_s))
             top, bottom = float(panel.y(high)), float(panel.y(low))
             if right > left:
-                axes.draw_hatching(
+                draw_hatching(
                     painter, style, QRectF(left, top, right - left, bottom - top), self._token, self._alpha, phase=0.5
                 )
 
@@ -411,12 +404,9 @@ class Axis(pg.AxisItem):
         return QPainterPath()
 
     def paint(self, painter: QPainter, option: object, widget: QWidget | None = None) -> None:
-        style, own = self.plot.plot_style, self.plot.local_panel
-        start, end = own.start_s, own.end_s
-        panel = Panel(self.plot.panel.box, own.scale, start, end)
-        unit = style.unit
+        style, panel, unit = self.plot.plot_style, self.plot.visible_panel, self.plot.plot_style.unit
         occupied: list[tuple[float, float]] = []
-        for label in self._labels(start, end):
+        for label in self._labels(panel.start_s, panel.end_s):
             face = style.end_label_font if label.is_bold else style.label_font
             metrics = QFontMetricsF(face)
             width, gap = metrics.horizontalAdvance(label.text), self._gap * unit
@@ -438,7 +428,8 @@ class Axis(pg.AxisItem):
             if self.orientation == "left":
                 height, right = metrics.height(), panel.box.left() - gap
                 at = QRectF(right - 300 * unit, middle - height / 2, 300 * unit, height)
-                draw_text(painter, at, label.text, fit_font(face, label.text, self._room), color, RIGHT_MIDDLE)
+                side = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
+                draw_text(painter, at, label.text, fit_font(face, label.text, self._room), color, side)
             else:
                 below = self.orientation == "bottom"
                 base = panel.box.bottom() + gap + metrics.ascent() if below else panel.box.top() - gap
@@ -469,9 +460,8 @@ def fit_font(face: QFont, text: str, room_px: float) -> QFont:
     return smaller
 
 
-def scale_labels(panel: Panel) -> list[AxisLabel]:
+def scale_labels(scale: Scale) -> list[AxisLabel]:
     """Return the labels of a fixed scale, its ends first."""
-    scale = panel.scale
     ends = (max(scale.ticks), min(scale.ticks)) if scale.ticks else ()
     out = []
     for value, text in sorted(scale.labels, key=lambda one: one[0] not in ends):
@@ -520,8 +510,11 @@ class Chart(pg.GraphicsView):
         return QSize(*self.min_px)
 
     # --- building -----------------------------------------------------------------------------------------
-    def add_plot(self, panel: Panel) -> Plot:
-        plot = Plot(self, panel)
+    def add_plot(self, panel: Panel, key: Any = None) -> Plot:
+        """Add a panel, on the screen with its edges between pixels; ``key`` says what it shows."""
+        if not self.is_printing:
+            panel = replace(panel, box=QRectF(panel.box.toRect()))
+        plot = Plot(self, panel, key)
         self.plots.append(plot)
         return plot
 
@@ -697,9 +690,8 @@ class HoverLabel(pg.TextItem):
         if position is None:
             return
         self.setText("\n".join(lines))
-        size, area = self.textItem.boundingRect(), QRectF(self._chart.rect()).adjusted(4, 4, -4, -4)
-        left = (
-            position.x() + 12 if position.x() + 12 + size.width() <= area.right() else position.x() - 12 - size.width()
-        )
-        left = min(max(left, area.left()), max(area.right() - size.width(), area.left()))
-        self.setPos(left, min(max(position.y() - 12 - size.height(), area.top()), area.bottom() - size.height()))
+        box, area = self.textItem.boundingRect(), QRectF(self._chart.rect()).adjusted(4, 4, -4, -4)
+        beside = position.x() + 12
+        left = beside if beside + box.width() <= area.right() else position.x() - 12 - box.width()
+        left = min(max(left, area.left()), max(area.right() - box.width(), area.left()))
+        self.setPos(left, min(max(position.y() - 12 - box.height(), area.top()), area.bottom() - box.height()))

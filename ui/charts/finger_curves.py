@@ -8,12 +8,10 @@ from dataclasses import dataclass, replace
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
 
-from carpus.ui.charts import axes
-from carpus.ui.charts.axes import Panel, Scale
-from carpus.ui.charts.chart import Chart, PaintedLayer, scale_labels
+from carpus.ui.charts.chart import Chart, PaintedLayer
 from carpus.ui.charts.history import VISIBLE_S, History
-from carpus.ui.charts.series import Curve, CurveDrawing
-from carpus.ui.charts.style import draw_text, screen_style
+from carpus.ui.charts.panel import Panel, Scale, draw_hatching, draw_text, positive_scale, screen_style
+from carpus.ui.charts.series import Curve
 from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.kit.icons import paint_state
@@ -120,8 +118,7 @@ class FingerCurves(Chart):
             QRectF(column.left(), top + high + between, column.width(), room - high - between),
         )
         bending, spreading = (
-            Panel(axes.align_to_pixels(box), own, -VISIBLE_S, 0.0)
-            for box, own in zip(boxes, self._scales(), strict=True)
+            Panel(QRectF(box.toRect()), own, -VISIBLE_S, 0.0) for box, own in zip(boxes, self._scales(), strict=True)
         )
         return bending, spreading
 
@@ -129,7 +126,7 @@ class FingerCurves(Chart):
         if not self._is_showing_speeds:
             return BENDING, replace(SPREADING, labels=spread_labels(20.0))
         tops = (BENDING_TOP_DEG_S, 200.0), (SPREADING_TOP_DEG_S, 100.0)
-        bending, spreading = (axes.positive_scale(top, step, "°/s") for top, step in tops)
+        bending, spreading = (positive_scale(top, step, "°/s") for top, step in tops)
         return bending, spreading
 
     def cell(self, angle: FingerAngle) -> QRectF:
@@ -154,9 +151,7 @@ class FingerCurves(Chart):
                 if panel.box.height() <= 0.0:
                     continue
                 own = self.add_plot(panel)
-                own.add_grid()
-                if finger == 1:
-                    self.add_axis(own, "left", scale_labels(panel), 12)
+                own.add_grid(has_labels=finger == 1)
                 is_chosen = finger == self._angle.finger and (self._angle.kind == "spread") == (rows == SPREADING_ROWS)
                 has_target = (
                     math.isfinite(self._target_deg) and self._angle.kind != "tam" and not self._is_showing_speeds
@@ -169,17 +164,12 @@ class FingerCurves(Chart):
         self.draw()
 
     def draw(self) -> None:
-        """Redraw the curves of all panels in one pass."""
+        """Redraw the curves of all panels."""
         if not self.plots or not self.isVisible():
             return
         block = self._history.angle_block(speeds=self._is_showing_speeds)
-        placed = [
-            (curves.plot.local_panel, [Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in angles])
-            for curves, angles in self._curves
-        ]
-        drawing = CurveDrawing(self.plot_style, placed)
-        for number, (curves, _) in enumerate(self._curves):
-            curves.set_drawing_source(lambda _, number=number: (drawing, number))  # type: ignore[misc]
+        for curves, angles in self._curves:
+            curves.set_curves([Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in angles])
 
     def _paint_values(self, painter: QPainter) -> None:
         scale = self._theme.text_scale
@@ -225,7 +215,7 @@ class FingerCurves(Chart):
         pen = QPen(self._theme.color(angle.token), 3)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         if predicted:
-            axes.draw_hatching(painter, screen_style(self._theme), cell.adjusted(14, 3, 0, -3), alpha=70)
+            draw_hatching(painter, screen_style(self._theme), cell.adjusted(14, 3, 0, -3), alpha=70)
             pen.setDashPattern([1.4, 1.0])
         painter.setPen(pen)
         middle = cell.center().y()

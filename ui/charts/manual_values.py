@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from datetime import date, datetime, time
-from typing import Any
 
 import numpy as np
 import pyqtgraph as pg
@@ -14,8 +13,8 @@ from PySide6.QtGui import QFontMetricsF
 from PySide6.QtWidgets import QSizePolicy
 
 from carpus.core.measures.manual_measurements import ManualMeasure, ManualValue
-from carpus.ui.charts.axes import Panel, Scale
-from carpus.ui.charts.chart import Chart, Plot, date_labels, scale_labels
+from carpus.ui.charts.chart import Chart, Plot, date_labels
+from carpus.ui.charts.panel import Panel, Scale
 from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import SEMIBOLD, font
 from carpus.ui.kit.theme import Theme
@@ -32,36 +31,26 @@ def day_timestamp(day: date, sessions: Iterable[datetime] = ()) -> float:
 
 def add_manual_values(
     plot: Plot, values: Sequence[ManualValue], sessions: Sequence[datetime] = (), *, is_joined: bool = False
-) -> list[Any]:
+) -> None:
     """Add manual values of one measure and mode to a plot: squares, or diamonds for passive ones.
 
     ``sessions`` are the times of the recorded sessions. ``is_joined`` joins the values by a thin line, where nothing
-    else is in the panel.
-
-    Returns
-    -------
-    list
-            The items added; a value beyond the time axis is an arrow at its end.
+    else is in the panel. A value beyond the time axis is an arrow at its end.
     """
-    panel, chart, start, end = plot.panel, plot.chart, plot.local_panel.start_s, plot.local_panel.end_s
+    panel, chart = plot.visible_panel, plot.chart
     times = [day_timestamp(one.day, sessions) for one in values]
-    places = [
-        QPointF(float(plot.scene_x(at)), float(panel.y(one.value))) for at, one in zip(times, values, strict=True)
-    ]
+    places = [panel.point(at, one.value) for at, one in zip(times, values, strict=True)]
     if is_joined:
         plot.add_line(times, [one.value for one in values], "text", 1.6)
     pen = pg.mkPen(plot.plot_style.color("text"), width=1.6 * plot.plot_style.unit)
     symbol, size = ("d", 12.0) if values and values[0].mode == "passive" else ("s", 9.0)
-    shown = [at for time, at in zip(times, places, strict=True) if start <= time <= end]
-    out = [chart.add_symbols(symbol, size, pen, "surface", shown)]
-    for edge, sign, beyond in (
-        (panel.box.left(), "t3", [at for at in places if at.x() < panel.box.left() - 1]),
-        (panel.box.right(), "t2", [at for at in places if at.x() > panel.box.right() + 1]),
-    ):
-        if beyond:
-            nearest = min(beyond, key=lambda at, edge=edge: abs(at.x() - edge))  # type: ignore[misc]
-            out.append(chart.add_symbols(sign, 10.0, pen, "surface", [QPointF(edge, nearest.y())]))
-    return out
+    shown = [at for time, at in zip(times, places, strict=True) if panel.start_s <= time <= panel.end_s]
+    chart.add_symbols(symbol, size, pen, "surface", shown)
+    left, right = panel.box.left(), panel.box.right()
+    if before := [at for at in places if at.x() < left - 1]:
+        chart.add_symbols("t3", 10.0, pen, "surface", [QPointF(left, max(before, key=QPointF.x).y())])
+    if after := [at for at in places if at.x() > right + 1]:
+        chart.add_symbols("t2", 10.0, pen, "surface", [QPointF(right, min(after, key=QPointF.x).y())])
 
 
 def manual_value_scale(measure: ManualMeasure, values: Sequence[float]) -> Scale:
@@ -132,7 +121,6 @@ class ManualValueChart(Chart):
         )  # fmt: skip
         plot = self.add_plot(Panel(area, scale, min(times) - pad, max(times) + pad))
         plot.add_grid()
-        self.add_axis(plot, "left", scale_labels(plot.panel), 12)
         beside = []
         if ours:
             plot.add_line([one.timestamp() for one in when], [value for _, value in ours], "flexion")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QPainter
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QFontMetricsF
 
 from carpus.core.measures.manual_measurements import ManualValue, find_manual_measure
 from carpus.core.model.hand.exercises import EXERCISES, PRONOSUPINATION
@@ -17,11 +16,9 @@ from carpus.core.model.rounding import format_rounded
 from carpus.core.results.measure import Measure, MeasureKey, is_total_active_motion, wrist_angle_index
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import Progress, goal_measure
-from carpus.ui.charts import axes
-from carpus.ui.charts.axes import Panel, Scale
-from carpus.ui.charts.chart import LINES, HoverLabel, Plot, date_labels, scale_labels
+from carpus.ui.charts.chart import LINES, HoverLabel, Plot, date_labels
 from carpus.ui.charts.manual_values import add_manual_values, day_timestamp
-from carpus.ui.charts.style import PlotStyle
+from carpus.ui.charts.panel import Panel, PlotStyle, Scale
 from carpus.ui.charts.zoom_chart import ZoomChart
 from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import SEMIBOLD, font
@@ -123,7 +120,7 @@ def select_manual_values(progress: Progress, key: MeasureKey) -> list[ManualValu
 
 
 def place_panels(
-    progress: Progress, style: PlotStyle, box: QRectF, key_lines: int, visible_s: tuple[float, float] | None = None
+    progress: Progress, style: PlotStyle, box: QRectF, key_lines: int, span_s: tuple[float, float]
 ) -> list[tuple[Panel, MeasureKey]]:
     """Place all panels over one time axis, in one column or, if there are many, in two."""
     keys, unit = panel_keys(progress), style.unit
@@ -144,7 +141,7 @@ def place_panels(
         left, right = edge + 56 * unit, edge + width - words - 16 * unit
         top = box.top() + (place % lines) * height + title
         area = QRectF(left, top, right - left, height - title - 10 * unit)
-        out.append((Panel(area, panel_scale(progress, key), *(visible_s or extent_s(progress))), key))
+        out.append((Panel(area, panel_scale(progress, key), *span_s), key))
     return out
 
 
@@ -256,6 +253,9 @@ DAY_S = 86_400.0
 MAX_LINE_LENGTH = 60
 
 
+NO_PROGRESS = Progress((), (), None)
+
+
 class ProgressChart(ZoomChart):
     """Chart of the sessions; ``session_chosen`` when a point is clicked or chosen by key."""
 
@@ -264,9 +264,9 @@ class ProgressChart(ZoomChart):
 
     session_chosen = Signal(str)
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, progress: Progress = NO_PROGRESS) -> None:
         super().__init__(theme, "progress")
-        self._progress = Progress((), (), None)
+        self._progress = progress
         # What is rebuilt whenever another time span is visible.
         self._zoomed_items: list[Any] = []
         self._ring: Any = None
@@ -314,61 +314,43 @@ class ProgressChart(ZoomChart):
             self.remove_item(item)
         self._zoomed_items = []
         before = len(self._items)
-        for plot, key in zip(self.plots, panel_keys(self._progress), strict=False):
-            self._add_points(plot, key)
+        for plot in self.plots:
+            self._add_points(plot, plot.key)
         self._zoomed_items = self._items[before:]
         self._update_highlight()
 
     # --- places -------------------------------------------------------------------------------------------
-    def panels(self) -> list[tuple[Panel, MeasureKey]]:
-        area = self.area if self.is_printing else QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
-        keys = legend_entries(self._progress)
-        placed = place_panels(
-            self._progress, self.plot_style, area, len(self.legend_lines(keys, area.width())), self._window
-        )
-        return (
-            placed
-            if self.is_printing
-            else [(replace(panel, box=axes.align_to_pixels(panel.box)), key) for panel, key in placed]
-        )
-
-    def visible_points(self, plot: Plot, key: MeasureKey) -> list[tuple[int, QPointF, Measure]]:
+    def visible_points(self, plot: Plot) -> list[tuple[int, QPointF, Measure]]:
         """Return session number, position and measure of each visible point of a panel."""
-        out = []
-        start, end = self.x_range()
+        out, panel = [], plot.visible_panel
         for number, point in enumerate(self._progress.points):
-            row, at_s = find_session_measure(self._progress, number, key), point.results.when.timestamp()
-            if row is not None and start <= at_s <= end:
-                out.append((number, QPointF(plot.scene_x(at_s), float(plot.panel.y(row.mean))), row))
+            row, at_s = find_session_measure(self._progress, number, plot.key), point.results.when.timestamp()
+            if row is not None and panel.start_s <= at_s <= panel.end_s:
+                out.append((number, panel.point(at_s, row.mean), row))
         return out
 
     def points(self) -> list[tuple[int, MeasureKey, QPointF]]:
-        keys = panel_keys(self._progress)
-        return [
-            (number, key, at)
-            for plot, key in zip(self.plots, keys, strict=False)
-            for number, at, _ in self.visible_points(plot, key)
-        ]
+        return [(number, plot.key, at) for plot in self.plots for number, at, _ in self.visible_points(plot)]
 
     def find_point(self, position: QPointF) -> tuple[int, MeasureKey] | None:
-        near = [
-            (math.hypot(p.x() - position.x(), p.y() - position.y()), number, key) for number, key, p in self.points()
-        ]
+        near = [(QLineF(at, position).length(), number, key) for number, key, at in self.points()]
         away, number, key = min(near, default=(math.inf, 0, ("", "arc")))
         return (number, key) if away <= TARGET_RADIUS_PX else None
 
     # --- what is in it ------------------------------------------------------------------------------------
     def build(self) -> None:
-        progress, look, placed = self._progress, self.plot_style, self.panels()
+        progress, look, entries = self._progress, self.plot_style, legend_entries(self._progress)
+        area = self.area if self.is_printing else QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
+        lines = len(self.legend_lines(entries, area.width()))
+        placed = place_panels(progress, look, area, lines, self.x_range())
         self.menu_button.setVisible(bool(placed))
         self._zoomed_items, self._ring, self._hover_label = [], None, None
         face = font(look.end_label_font.pixelSize() * 1.25, SEMIBOLD, display=False)
         for panel, key in placed:
-            plot = self.add_plot(panel)
+            plot = self.add_plot(panel, key)
             add_background(plot, progress, key)
-            self.add_axis(plot, "left", scale_labels(panel), 12)
             title = self.add_text(panel_title(progress, key), face, "text", (0.0, 1.0))
-            title.setPos(panel.box.left(), panel.box.top() - 5 * look.unit)
+            title.setPos(plot.panel.box.left(), plot.panel.box.top() - 5 * look.unit)
             joined = [  # those that compare
                 (point.results.when.timestamp(), row.mean)
                 for number, point in enumerate(progress.points)
@@ -384,8 +366,7 @@ class ProgressChart(ZoomChart):
         days = date_labels([(day.timestamp(), text) for day, text in zip(when, words, strict=True)])
         for plot in {plot.panel.box.left(): plot for plot in self.plots}.values():  # the lowest of each column
             self.add_axis(plot, "bottom", days, 14)
-        area = self.area if self.is_printing else QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
-        self.add_legend(legend_entries(progress), area)
+        self.add_legend(entries, area)
         if not self.is_printing:
             self._ring = self.add_symbols("o", 18.0, pg.mkPen(look.color("accent"), width=2.0))
             self._hover_label = HoverLabel(self)
@@ -394,7 +375,7 @@ class ProgressChart(ZoomChart):
     def _add_points(self, plot: Plot, key: MeasureKey) -> None:
         """Add means with error bars, rings for sessions that are not compared, and the first and last value."""
         progress, look, unit, panel = self._progress, self.plot_style, self.plot_style.unit, plot.panel
-        found = self.visible_points(plot, key)
+        found = self.visible_points(plot)
         for is_fair, token in ((True, point_token(key)), (False, "text2")):
             some = [one for one in found if progress.points[one[0]].is_comparable == is_fair]
             pen = plot.pen(token, 1.4 if is_fair else 2.0)
@@ -500,11 +481,3 @@ class ProgressChart(ZoomChart):
         self._set_current_point(found)
         if found is not None:
             self.choose_current()
-
-
-def paint_progress_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress) -> None:
-    """Paint the chart into a box on paper."""
-    chart = ProgressChart(Theme("light"))
-    chart.show_progress(progress)
-    chart.render_on_paper(painter, style, box)
-    chart.deleteLater()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -15,8 +16,7 @@ from PySide6.QtGui import QFontMetricsF, QPaintEngine, QPainter, QPen, QPolygonF
 
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
-from carpus.ui.charts.axes import Panel, draw_hatching, x_px, y_px
-from carpus.ui.charts.style import PlotStyle
+from carpus.ui.charts.panel import Panel, PlotStyle, draw_hatching
 from carpus.ui.kit.theme import BAND_ALPHA
 
 # Samples further apart than this are not joined.
@@ -74,6 +74,18 @@ class Series:
         times = np.concatenate(([self.time_s[0]], self.time_s[known], [self.time_s[-1]]))
         return [(float(a), float(b)) for a, b in pairwise(times) if b - a > self.max_step_s]
 
+    def read_value(self, time_s: float) -> tuple[float, float, bool]:
+        """Return value, SD and whether it was not measured at the nearest sample; NaN in a gap."""
+        row = find_nearest_row(self.time_s, time_s)
+        if row < 0 or self.sd is None or abs(float(self.time_s[row]) - time_s) > self.max_step_s:
+            return math.nan, math.nan, True
+        return float(self.value[row]), float(self.sd[row]), bool(self.predicted[row])
+
+
+def find_nearest_row(time_s: FloatArray, at_s: float) -> int:
+    """Return the row of the frame nearest to a time, -1 if there are none."""
+    return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1
+
 
 def find_max_step_s(time_s: FloatArray) -> float:
     """Return how far apart two frames (N,) may lie without a frame missing between them."""
@@ -86,8 +98,6 @@ class Curve:
 
     series: Series
     token: str
-    # False leaves gaps open.
-    is_hatched: bool = True
 
 
 def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
@@ -98,133 +108,99 @@ def find_runs(flag: np.ndarray) -> list[tuple[int, int]]:
     return list(zip(edges[::2], edges[1::2], strict=True))
 
 
-class CurveDrawing:
-    """Curves of several panels in painter units, computed in one pass.
+class _PlacedCurve:
+    """Curve in painter units.
 
-    Segment k joins samples k and k + 1: ``_joined`` (n - 1,) says which exist, ``_ends`` (n - 1, 4) where;
-    ``_dashes`` (m, 4) are the dashes of the segments ``_dash_of`` (m,).
+    Segment k joins samples k and k + 1: ``joined`` (n - 1,) says which exist, ``ends`` (n - 1, 4) where, ``solid``
+    (n - 1,) which of them were measured; ``dashes`` (m, 4) are those of the others.
     """
 
-    def __init__(self, style: PlotStyle, placed: Sequence[tuple[Panel, Sequence[Curve]]]) -> None:
-        self._panels = [panel for panel, _ in placed]
-        self._curves = [[curve for curve in curves if len(curve.series.value)] for _, curves in placed]
-        series_list = [curve.series for own in self._curves for curve in own]
-        if not series_list:
-            return
-        sizes = [len(one.value) for one in series_list]
-        past = np.cumsum(sizes)
-        self._segments = [slice(end - size, end - 1) for end, size in zip(past.tolist(), sizes, strict=True)]
-        time_s = np.concatenate([one.time_s for one in series_list])
-        value = np.concatenate([one.value for one in series_list])
-        width = np.concatenate([np.zeros(len(one.value)) if one.sd is None else one.sd for one in series_list])
-        width[~np.isfinite(width)] = 0.0
-        known = np.isfinite(value)
-        longest_s = np.repeat([one.max_step_s for one in series_list], sizes)
-        self._joined = known[:-1] & known[1:] & (np.diff(time_s) <= longest_s[1:])
-        self._joined[past[:-1] - 1] = False  # no curve goes on as the next
-        panels = [panel for panel, own in zip(self._panels, self._curves, strict=True) for _ in own]
-        across, down = (
-            np.repeat(np.array(edges).T, sizes, axis=1)
-            for edges in ([panel.x_parameters() for panel in panels], [panel.y_parameters() for panel in panels])
-        )
-        self._x, y = x_px(time_s, *across), y_px(value, *down)
-        self._upper, self._lower = y_px(value + width, *down), y_px(value - width, *down)
-        self._ends = np.array((self._x[:-1], y[:-1], self._x[1:], y[1:])).T
-        predicted = np.concatenate([one.predicted for one in series_list])[1:]
-        self._solid, dashed = self._joined & ~predicted, np.flatnonzero(self._joined & predicted)
-        from_px = x_px(np.repeat([-one.start_s for one in series_list], sizes), *across)[dashed]
-        self._dashes, segment = _compute_dashes(self._ends[dashed], from_px, DASH_PX * style.unit)
-        self._dash_of = dashed[segment]
+    def __init__(self, style: PlotStyle, panel: Panel, curve: Curve) -> None:
+        self.curve, series = curve, curve.series
+        known = np.isfinite(series.value)
+        self.joined = known[:-1] & known[1:] & (np.diff(series.time_s) <= series.max_step_s)
+        self.x, y = panel.x(series.time_s), panel.y(series.value)
+        self.ends = np.array((self.x[:-1], y[:-1], self.x[1:], y[1:])).T
+        self.solid, dashed = self.joined & ~series.predicted[1:], self.joined & series.predicted[1:]
+        self.dashes = _compute_dashes(self.ends[dashed], float(panel.x(-series.start_s)), DASH_PX * style.unit)
+        if series.sd is not None:
+            half = np.where(np.isfinite(series.sd), series.sd, 0.0)
+            self.upper, self.lower = panel.y(series.value + half), panel.y(series.value - half)
 
-    def paint(self, painter: QPainter, style: PlotStyle, number: int) -> list[QRectF]:
-        """Paint gaps, bands and lines of one panel.
 
-        A value beyond the scale is an arrow at the edge, with its number where that covers no other.
+def draw_curves(painter: QPainter, style: PlotStyle, panel: Panel, curves: Sequence[Curve]) -> None:
+    """Draw gaps, bands and lines of the curves of a panel.
 
-        Returns
-        -------
-        list
-                Rectangles of the written numbers.
-        """
-        curves, panel = self._curves[number], self._panels[number]
-        numbers: list[QRectF] = []
-        if not curves:
-            return numbers
-        before = sum(len(own) for own in self._curves[:number])
-        placed = list(zip(curves, self._segments[before : before + len(curves)], strict=True))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        gaps: set[tuple[int, int]] = set()
-        for curve, own in placed:
-            if curve.is_hatched and not self._joined[own].all():
-                _paint_gaps(painter, style, panel, curve.series, gaps)
-        self._paint_bands(painter, style, placed)
-        self._paint_lines(painter, style, placed)
-        for curve in curves:
-            _paint_out_of_range(painter, style, panel, curve, numbers)
-        return numbers
+    A value beyond the scale is an arrow at the edge, with its number where that covers no other.
+    """
+    placed = [_PlacedCurve(style, panel, curve) for curve in curves if len(curve.series.value)]
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    gaps, numbers = set[tuple[int, int]](), list[QRectF]()
+    for one in placed:
+        if not one.joined.all():
+            _paint_gaps(painter, style, panel, one.curve.series, gaps)
+    _paint_bands(painter, style, placed)
+    _paint_lines(painter, style, placed)
+    for one in placed:
+        _paint_out_of_range(painter, style, panel, one.curve, numbers)
 
-    def _paint_bands(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
-        """Paint the bands, on pixels in pieces without antialiasing: a third of the time, and seamless."""
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        longest = BAND_PIECE_POINTS if _is_raster(painter) else len(self._x)
-        for curve, own in placed:
-            if curve.series.sd is None:
-                continue
-            painter.setBrush(style.color(curve.token, BAND_ALPHA))
-            for first, past in find_runs(self._joined[own]):
-                for start in range(own.start + first, own.start + past, longest):
-                    part = slice(start, min(start + longest, own.start + past) + 1)
-                    x, around = self._x[part], np.concatenate((self._upper[part], self._lower[part][::-1]))
-                    painter.drawPolygon(arrayToQPolygonF(np.concatenate((x, x[::-1])), around))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
 
-    def _paint_lines(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
-        """Paint the lines, on pixels segment by segment: stroking a long polyline takes 5 to 70 times as long."""
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        pen = QPen(Qt.PenStyle.SolidLine)
-        pen.setCapStyle(Qt.PenCapStyle.SquareCap)
-        pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
-        on_pixels = _is_raster(painter)
-        for curve, own in placed:
-            pen.setColor(style.color(curve.token))
-            pen.setWidthF(style.line_width)
-            painter.setPen(pen)
-            dashes = self._dashes[slice(*np.searchsorted(self._dash_of, (own.start, own.stop)))]
-            solid = self._solid[own]
-            if on_pixels:
-                dashes = np.concatenate((self._ends[own][solid], dashes))
-            else:
-                for first, past in find_runs(solid):
-                    ends = self._ends[own.start + first : own.start + past]
-                    painter.drawPolyline(
-                        arrayToQPolygonF(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3]))
-                    )
-            if len(dashes):  # no Python object per line: Qt reads the array, row by row
-                dashes = np.ascontiguousarray(dashes)
-                painter.drawLines(_wrapped(dashes.ctypes.data, QLineF), len(dashes))
+def _paint_bands(painter: QPainter, style: PlotStyle, placed: Sequence[_PlacedCurve]) -> None:
+    """Paint the bands, on pixels in pieces without antialiasing: a third of the time, and seamless."""
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    for one in placed:
+        if one.curve.series.sd is None:
+            continue
+        painter.setBrush(style.color(one.curve.token, BAND_ALPHA))
+        longest = BAND_PIECE_POINTS if _is_raster(painter) else len(one.x)
+        for first, past in find_runs(one.joined):
+            for start in range(first, past, longest):
+                part = slice(start, min(start + longest, past) + 1)
+                x, around = one.x[part], np.concatenate((one.upper[part], one.lower[part][::-1]))
+                painter.drawPolygon(arrayToQPolygonF(np.concatenate((x, x[::-1])), around))
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+
+
+def _paint_lines(painter: QPainter, style: PlotStyle, placed: Sequence[_PlacedCurve]) -> None:
+    """Paint the lines, on pixels segment by segment: stroking a long polyline takes 5 to 70 times as long."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    pen = QPen(Qt.PenStyle.SolidLine)
+    pen.setCapStyle(Qt.PenCapStyle.SquareCap)
+    pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
+    for one in placed:
+        pen.setColor(style.color(one.curve.token))
+        pen.setWidthF(style.line_width)
+        painter.setPen(pen)
+        lines = one.dashes
+        if _is_raster(painter):
+            lines = np.concatenate((one.ends[one.solid], lines))
+        else:
+            for first, past in find_runs(one.solid):
+                ends = one.ends[first:past]
+                painter.drawPolyline(
+                    arrayToQPolygonF(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3]))
+                )
+        if len(lines):  # no Python object per line: Qt reads the array, row by row
+            lines = np.ascontiguousarray(lines)
+            painter.drawLines(_wrapped(lines.ctypes.data, QLineF), len(lines))
 
 
 def _is_raster(painter: QPainter) -> bool:
     return painter.paintEngine().type() == QPaintEngine.Type.Raster
 
 
-def _compute_dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple[FloatArray, np.ndarray]:
-    """Compute the dashes of segments.
+def _compute_dashes(ends: FloatArray, from_px: float, dash: float) -> FloatArray:
+    """Return both ends (m, 4) of the dashes of segments.
 
     Parameters
     ----------
     ends
             Both ends of each segment (n, 4) in px.
     from_px
-            x from which dashes are counted (n,).
+            x from which dashes are counted.
     dash
             Length of a dash on a level line; it is halved for steep segments.
-
-    Returns
-    -------
-    tuple
-            Both ends of each dash (m, 4), and the segment of each (m,).
     """
     x0, y0, x1, y1 = ends.T
     steep = (y1 - y0) / np.maximum(x1 - x0, 1e-9)
@@ -233,14 +209,12 @@ def _compute_dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple
     count = np.maximum(np.ceil((x1 - from_px) / width) - first, 0.0).astype(np.int64)
     segment = np.repeat(np.arange(len(ends)), count)
     cell = first[segment] + np.arange(len(segment)) - np.repeat(np.cumsum(count) - count, count)
-    left = np.maximum(from_px[segment] + cell * width[segment], x0[segment])
-    right = np.minimum(from_px[segment] + (cell + 1) * width[segment], x1[segment])
+    left = np.maximum(from_px + cell * width[segment], x0[segment])
+    right = np.minimum(from_px + (cell + 1) * width[segment], x1[segment])
     shown = (cell % 2 == 0) & (right - left > MIN_DASH_PX)
     segment, left, right = segment[shown], left[shown], right[shown]
-    down = steep[segment]
-    return np.array(
-        (left, y0[segment] + down * (left - x0[segment]), right, y0[segment] + down * (right - x0[segment]))
-    ).T, segment
+    down, x0, y0 = steep[segment], x0[segment], y0[segment]
+    return np.array((left, y0 + down * (left - x0), right, y0 + down * (right - x0))).T
 
 
 def _paint_gaps(

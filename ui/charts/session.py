@@ -16,11 +16,9 @@ from carpus.core.model.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.core.model.hand.forearm_rotation import axis_limits_deg, is_counted_from_thumb_up
 from carpus.core.model.hand.kinematics import DIP_PER_PIP
 from carpus.core.model.rounding import format_rounded
-from carpus.core.model.types import FloatArray, TrackStatus
+from carpus.core.model.types import TrackStatus
 from carpus.core.results.repetition_rows import RepetitionResult
 from carpus.core.results.valid_data import JointCurves, WristCurves
-from carpus.ui.charts import axes
-from carpus.ui.charts.axes import Panel, Scale
 from carpus.ui.charts.chart import (
     GROUND,
     AxisLabel,
@@ -30,11 +28,10 @@ from carpus.ui.charts.chart import (
     HoverLabel,
     Plot,
     fit_font,
-    scale_labels,
     span_html,
 )
+from carpus.ui.charts.panel import Panel, Scale, angle_scale, stack_boxes, time_labels
 from carpus.ui.charts.series import Curve, Series, decimate, find_max_step_s, slice_time
-from carpus.ui.charts.style import PlotStyle
 from carpus.ui.charts.zoom_chart import ZoomChart
 from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font
@@ -79,27 +76,34 @@ def add_limits(plot: Plot, exercise: Exercise, key: int, *, is_first: bool) -> N
         plot.add_band(-limit, limit, "norm")
         room = float(plot.panel.y(limit)) - plot.panel.box.top()
         if room >= QFontMetricsF(plot.plot_style.end_label_font).height():  # a low panel has the band alone
-            plot.add_label(limit, tolerance_words(limit, key))
+            words = tr("should stay within {angle}").format(angle=numbers.format_degrees(limit))
+            if key == PRONOSUPINATION:
+                words = tr("from the start, + = thumb side up; {within}").format(within=words)
+            plot.add_label(limit, words)
     elif key == PRONOSUPINATION:
         is_from_thumb_up = is_counted_from_thumb_up(exercise)
         words = tr("0° = thumb up") if is_from_thumb_up else tr("rotation from the start, + = thumb side up")
         plot.add_label(0.0, words, small=True)
 
 
-def missing_value_words() -> str:
-    """Return the text for an unknown value."""
-    return tr("no value")
+def wrist_panels(
+    exercise: Exercise, box: QRectF, between: float, span_s: tuple[float, float], *, single: bool = False
+) -> list[tuple[Panel, int]]:
+    """Return three panels with the column of each, the trained angle first and twice as high; or that one alone."""
+    first = FLEXION if exercise.angle is None else exercise.angle
+    order = [first] if single else [first, *(k for k in (FLEXION, 0, PRONOSUPINATION) if k != first)]
+    out = []
+    for k, area in zip(order, stack_boxes(box, (2.0, 1.0, 1.0)[: len(order)], between), strict=True):
+        limits, names = axis_limits_deg(k, exercise), terms.direction_names(k, exercise)
+        out.append((Panel(area, angle_scale(*limits, *names, is_sparse=k != first), *span_s), k))
+    return out
 
 
-def angle_group_names() -> tuple[str, str]:
-    """Return the names of the two groups of finger angles."""
-    return tr("Flexion"), tr("Abduction")
-
-
-def tolerance_words(limit_deg: float, key: int) -> str:
-    """Say that an angle should hardly move."""
-    within = tr("should stay within {angle}").format(angle=numbers.format_degrees(limit_deg))
-    return within if key != PRONOSUPINATION else tr("from the start, + = thumb side up; {within}").format(within=within)
+def wrist_series(curves: WristCurves, column: int) -> Series:
+    """Return the series of a wrist angle."""
+    predicted = curves.status == TrackStatus.PREDICTED
+    values, sds = curves.angles_deg[:, column], curves.sds_deg[:, column]
+    return Series(curves.time_s, values, sds, predicted, find_max_step_s(curves.time_s))
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,12 +132,6 @@ class SessionPlot:
     current: int = -1
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
-    # Visible time span; None for all of it.
-    window_s: tuple[float, float] | None = None
-
-    @property
-    def visible_s(self) -> tuple[float, float]:
-        return self.window_s or (0.0, self.end_s)
 
     @property
     def repetition_span_s(self) -> tuple[float, float]:
@@ -147,33 +145,12 @@ class SessionPlot:
     def end_s(self) -> float:
         return max(float(self.curves.time_s[-1]), 1.0) if len(self.curves.time_s) else 1.0
 
-    def panel_order(self) -> list[int]:
-        first = FLEXION if self.exercise.angle is None else self.exercise.angle
-        return [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
-
-    def series(self, column: int) -> Series:
-        curves = self.curves
-        return Series(
-            curves.time_s,
-            curves.angles_deg[:, column],
-            curves.sds_deg[:, column],
-            curves.status == TrackStatus.PREDICTED,
-            find_max_step_s(curves.time_s),
-        )
-
     # --- what is drawn ------------------------------------------------------------------------------------
-    def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
-        """Return three panels with the column of each, the trained angle twice as high; or that one alone."""
-        order = self.panel_order()[: 1 if single else 3]
-        unit = (box.height() - between * (len(order) - 1)) / (len(order) + 1)
-        top, out = box.top(), []
-        for place, column in enumerate(order):
-            height = unit * (2 if place == 0 else 1)
-            names = terms.direction_names(column, self.exercise)
-            scale = axes.angle_scale(*axis_limits_deg(column, self.exercise), *names, is_sparse=place > 0)
-            out.append((Panel(QRectF(box.left(), top, box.width(), height), scale, *self.visible_s), column))
-            top += height + between
-        return out
+    def panels(
+        self, box: QRectF, between: float, span_s: tuple[float, float], *, single: bool = False
+    ) -> list[tuple[Panel, int]]:
+        """Return the panels in a box over a time span, with the key of each; ``single`` for the first alone."""
+        return wrist_panels(self.exercise, box, between, span_s, single=single)
 
     def add_background(self, plot: Plot, place: int, key: int) -> None:
         """Add what lies behind the curves of a panel."""
@@ -182,14 +159,13 @@ class SessionPlot:
         if place == 0:
             add_targets(plot, self.target_positive_deg, self.target_negative_deg)
 
-    def visible_curves(self, key: int, points: int) -> list[Curve]:
-        """Return the curves of a panel over the visible time, of about ``points`` points each."""
-        return self._curves(self.series(key), CURVE_TOKENS[key], points)
+    def visible_curves(self, key: int, points: int, span_s: tuple[float, float]) -> list[Curve]:
+        """Return the curves of a panel over a time span, of about ``points`` points each."""
+        return self._curves(wrist_series(self.curves, key), CURVE_TOKENS[key], points, span_s)
 
-    def _curves(self, series: Series, token: str, points: int) -> list[Curve]:
+    def _curves(self, series: Series, token: str, points: int, span_s: tuple[float, float]) -> list[Curve]:
         """Return a curve in its colour during the repetitions, and what is visible before and after them in grey."""
-        start_s, end_s = self.visible_s
-        first_s, last_s = start_s, end_s
+        start_s, end_s = first_s, last_s = span_s
         if self.repetitions:
             first_s, last_s = self.repetitions[0].start_s, max(repetition.end_s for repetition in self.repetitions)
         parts = (start_s, min(first_s, end_s), "border"), (max(last_s, start_s), end_s, "border")
@@ -200,8 +176,9 @@ class SessionPlot:
         ]
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
-        value, sd = read_wrist_angle(self.curves, key, time_s)
-        name = terms.direction_name(key, value, self.exercise) if math.isfinite(value) else missing_value_words()
+        """Return what is written beside a panel."""
+        value, sd, _ = wrist_series(self.curves, key).read_value(time_s)
+        name = terms.direction_name(key, value, self.exercise) if math.isfinite(value) else tr("no value")
         return [Value(name, CURVE_TOKENS[key], value, sd)]
 
 
@@ -212,9 +189,7 @@ class HandPlot(SessionPlot):
     joints: JointCurves | None = None
     finger: int = 0
     # Of :meth:`joint_series`, which is called at every step of the wheel.
-    _series_cache: dict[FingerAngle, tuple[JointCurves, Series | None]] = field(
-        default_factory=dict, repr=False, compare=False
-    )
+    _series: dict[FingerAngle, Series | None] = field(default_factory=dict, repr=False, compare=False)
 
     def panel_angles(self, panel: int) -> list[FingerAngle]:
         if self.finger and panel == 1:
@@ -223,55 +198,50 @@ class HandPlot(SessionPlot):
 
     def joint_series(self, angle: FingerAngle) -> Series | None:
         """Return a joint's series, dashed where occluded; None if it is neither measured nor coupled."""
-        joints = self.joints
-        assert joints is not None
-        cached_joints, found = self._series_cache.get(angle, (None, None))
-        if cached_joints is not joints:
-            found = _joint_series(joints, angle)
-            self._series_cache[angle] = joints, found
-        return found
+        if angle not in self._series:
+            assert self.joints is not None
+            self._series[angle] = _joint_series(self.joints, angle)
+        return self._series[angle]
 
-    def is_coupled(self, angle: FingerAngle) -> bool:
-        return self.joints is not None and angle.joint not in self.joints.names
-
-    def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:
+    def panels(
+        self, box: QRectF, between: float, span_s: tuple[float, float], *, single: bool = False
+    ) -> list[tuple[Panel, int]]:
         """Return a panel for each finger, or flexion over spreading; ``single`` omits the spreading."""
         weights = (2.0, 1.0)[: 1 if single else 2] if self.finger else (1.0,) * len(FINGERS)
-        unit = (box.height() - between * (len(weights) - 1)) / sum(weights)
-        top, out = box.top(), []
-        for place, weight in enumerate(weights):
-            spread = bool(self.finger) and place == 1
-            area = QRectF(box.left(), top, box.width(), unit * weight)
-            ticks = (90.0, 45.0, 0.0) if self.finger else (90.0, 0.0)
-            labels = tuple((value, f"{format_rounded(value)}°") for value in ticks)
-            scale = Scale(-15.0, 115.0, ticks, labels, bold_ends=False)
-            if spread:
-                scale = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), spread_labels(20.0, self.finger), bold_ends=False)
-            out.append((Panel(area, scale, *self.visible_s), place))
-            top += unit * weight + between
-        return out
+        ticks = (90.0, 45.0, 0.0) if self.finger else (90.0, 0.0)
+        labels = tuple((value, f"{format_rounded(value)}°") for value in ticks)
+        flexion = Scale(-15.0, 115.0, ticks, labels, bold_ends=False)
+        spread = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), spread_labels(20.0, self.finger), bold_ends=False)
+        return [
+            (Panel(area, spread if self.finger and place == 1 else flexion, *span_s), place)
+            for place, area in enumerate(stack_boxes(box, weights, between))
+        ]
 
     def add_background(self, plot: Plot, place: int, key: int) -> None:
         plot.add_grid()
-        words = angle_group_names()[key] if self.finger else finger_name(str(FINGERS[key]))
+        words = (tr("Flexion"), tr("Abduction"))[key] if self.finger else finger_name(str(FINGERS[key]))
         add_panel_name(plot, words, above=bool(self.finger) and key == 0)
 
-    def visible_curves(self, key: int, points: int) -> list[Curve]:
+    def visible_curves(self, key: int, points: int, span_s: tuple[float, float]) -> list[Curve]:
         """Return the joints of a panel; those coupled or never visible only in the view of one finger."""
         out = []
         for figure in self.panel_angles(key):
             series = self.joint_series(figure)
-            series = None if series is None else slice_time(series, *self.visible_s)
+            series = None if series is None else slice_time(series, *span_s)
             if series is None or (not self.finger and bool(series.predicted[np.isfinite(series.value)].all())):
                 continue
-            out += self._curves(series, figure.token, points)
+            out += self._curves(series, figure.token, points, span_s)
         return out
 
     def read_values(self, key: int, time_s: float) -> list[Value]:
-        """Return the joints that have a value beside the panel."""
-        angles = [figure for figure in self.panel_angles(key) if self.joint_series(figure) is not None]
-        shown = angles if self.finger else [figure for figure in angles if not self.is_coupled(figure)]
-        return [Value(figure.kind_name, figure.token, *read_joint_angle(self, figure, time_s)) for figure in shown]
+        """Return the joints that have a value beside the panel; those coupled only in the view of one finger."""
+        assert self.joints is not None
+        out = []
+        for angle in self.panel_angles(key):
+            series = self.joint_series(angle)
+            if series is not None and (self.finger or angle.joint in self.joints.names):
+                out.append(Value(angle.kind_name, angle.token, *series.read_value(time_s)))
+        return out
 
 
 def _joint_series(joints: JointCurves, angle: FingerAngle) -> Series | None:
@@ -293,32 +263,6 @@ def repetition_label(number: int, repetition: RepetitionResult) -> str:
     return str(number) if repetition.is_counted else tr("{number} (excluded)").format(number=number)
 
 
-def read_wrist_angle(curves: WristCurves, column: int, time_s: float) -> tuple[float, float]:
-    """Return angle and SD in degrees at the frame nearest to a time; NaN in a gap."""
-    if not len(curves.time_s):
-        return math.nan, math.nan
-    row = find_nearest_row(curves.time_s, time_s)
-    if abs(float(curves.time_s[row]) - time_s) > find_max_step_s(curves.time_s):
-        return math.nan, math.nan
-    return float(curves.angles_deg[row, column]), float(curves.sds_deg[row, column])
-
-
-def read_joint_angle(plot: HandPlot, angle: FingerAngle, time_s: float) -> tuple[float, float, bool]:
-    """Return angle, SD and whether occluded at the frame nearest to a time; NaN in a gap."""
-    series = plot.joint_series(angle)
-    if series is None or not len(series.time_s):
-        return math.nan, math.nan, True
-    row = find_nearest_row(plot.curves.time_s, time_s)
-    if abs(float(series.time_s[row]) - time_s) > series.max_step_s or series.sd is None:
-        return math.nan, math.nan, True
-    return float(series.value[row]), float(series.sd[row]), bool(series.predicted[row])
-
-
-def find_nearest_row(time_s: FloatArray, at_s: float) -> int:
-    """Return the row of the frame nearest to a time, -1 if there are none."""
-    return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1
-
-
 def move_edge(repetitions: Sequence[RepetitionResult], number: int, edge: str, time_s: float) -> RepetitionResult:
     """Return a repetition with its ``start`` or ``end`` moved, as far as its other edge and its neighbours allow."""
     one = repetitions[number]
@@ -329,10 +273,9 @@ def move_edge(repetitions: Sequence[RepetitionResult], number: int, edge: str, t
     return replace(one, end_s=max(min(time_s, max(most, one.end_s)), one.start_s + MIN_REPETITION_S))
 
 
-LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX, BETWEEN_PX = 122, 108, 38, 30, 18
-# Left, top, right and bottom margin on paper, without the room for readings of the screen.
-PAPER_MARGINS = (106.0, 26.0, 8.0, 22.0)
-HAND_BETWEEN, PAPER_BETWEEN, NUMBERS_ABOVE = 8, 12, 10
+# Left, top, right and bottom; on paper without the room for the readings of the screen.
+SCREEN_MARGINS, PAPER_MARGINS = (122.0, 38.0, 108.0, 30.0), (106.0, 26.0, 8.0, 22.0)
+HAND_BETWEEN, PAPER_BETWEEN, SCREEN_BETWEEN, NUMBERS_ABOVE = 8, 12, 18, 10
 # Half the size of the drag target around the handle of an edge or around the cursor.
 GRIP_PX = 16
 # Shortest visible time span.
@@ -351,21 +294,23 @@ class SessionChart(ZoomChart):
     cursor_moved = Signal(float)
     edges_moved = Signal(int, float, float)
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, plot: SessionPlot | None = None) -> None:
+        """Show a session, zoomed to its repetitions; nothing until one is given."""
         super().__init__(theme, "curves")
-        self._plot: SessionPlot | None = None
+        self._plot = plot
         self._time_s = 0.0
         # What is dragged: an edge (``start``, ``end``), the ``cursor``, or nothing.
         self._drag_target = ""
         self._single = False
-        self._curves: list[tuple[Curves, int]] = []
+        self._curves: list[Curves] = []
         self._cursors: list[Any] = []
         self._readings: list[ChartText] = []
         self.setAccessibleName(self.tr("Curves of the session"))
+        self.show_repetitions()
 
     def show_plot(self, plot: SessionPlot) -> None:
         """Draw a session, or the same one with other repetitions, keeping the visible time span."""
-        self._plot = replace(plot, window_s=self._window)
+        self._plot = plot
         self.refresh()
 
     def clear(self) -> None:
@@ -402,34 +347,11 @@ class SessionChart(ZoomChart):
 
     def update_range(self) -> None:
         if self._plot is not None:
-            self._plot = replace(self._plot, window_s=self._window)
-            for curves, key in self._curves:
-                curves.set_curves(
-                    self._plot.visible_curves(
-                        key, int(curves.plot.panel.box.width() / self.plot_style.unit / self._share)
-                    )
-                )
+            share = 1 if self.is_printing else 2  # of the points that a panel has room for: all of them on paper
+            for curves in self._curves:
+                points = int(curves.plot.panel.box.width() / self.plot_style.unit / share)
+                curves.set_curves(self._plot.visible_curves(curves.plot.key, points, self.x_range()))
             self._show_time()
-
-    @property
-    def _share(self) -> int:
-        """Return the share of points that a panel has room for: all of them on paper."""
-        return 1 if self.is_printing else 2
-
-    # --- places -------------------------------------------------------------------------------------------
-    def panels(self) -> list[tuple[Panel, int]]:
-        assert self._plot is not None
-        hand, area = isinstance(self._plot, HandPlot), self.area if self.is_printing else QRectF(self.rect())
-        scale = self.plot_style.unit if self.is_printing else self._theme.text_scale
-        left, top, right, bottom = PAPER_MARGINS if self.is_printing else (LEFT_PX, TOP_PX, RIGHT_PX, BOTTOM_PX)
-        between = HAND_BETWEEN if hand else PAPER_BETWEEN if self.is_printing else BETWEEN_PX
-        box = area.adjusted(left * scale, top * scale, -right * scale, -bottom * scale)
-        placed = self._plot.panels(box, between * scale, single=self._single)
-        return (
-            placed
-            if self.is_printing
-            else [(replace(panel, box=axes.align_to_pixels(panel.box)), key) for panel, key in placed]
-        )
 
     # --- what is in it ------------------------------------------------------------------------------------
     def build(self) -> None:
@@ -438,16 +360,20 @@ class SessionChart(ZoomChart):
         self._curves, self._cursors, self._readings = [], [], []
         if plot is None:
             return
-        for place, (panel, key) in enumerate(self.panels()):
-            own = self.add_plot(panel)
+        area, scale, margins = QRectF(self.rect()), self._theme.text_scale, SCREEN_MARGINS
+        between = SCREEN_BETWEEN
+        if self.is_printing:
+            area, scale, margins, between = self.area, self.plot_style.unit, PAPER_MARGINS, PAPER_BETWEEN
+        between = HAND_BETWEEN if isinstance(plot, HandPlot) else between
+        left, top, right, bottom = (scale * margin for margin in margins)
+        box = area.adjusted(left, top, -right, -bottom)
+        for place, (panel, key) in enumerate(plot.panels(box, between * scale, self.x_range(), single=self._single)):
+            own = self.add_plot(panel, key)
             self._add_repetitions(own, plot)
             plot.add_background(own, place, key)
-            self.add_axis(own, "left", scale_labels(panel), 12)
-            self._curves.append((own.add_curves(), key))
+            self._curves.append(own.add_curves())
         self.add_axis(self.plots[0], "top", lambda *_: self._repetition_labels(), NUMBERS_ABOVE)
-        self.add_axis(
-            self.plots[-1], "bottom", lambda *ends: [AxisLabel(*one) for one in reversed(axes.time_labels(*ends))], 6
-        )
+        self.add_axis(self.plots[-1], "bottom", lambda *ends: [AxisLabel(*one) for one in time_labels(*ends)[::-1]], 6)
         if not self.is_printing:
             self._add_readings(plot)
         self.update_range()
@@ -501,9 +427,9 @@ class SessionChart(ZoomChart):
         painter.setFont(look.label_font)
         painter.setPen(look.color("text2"))
         if plot.repetitions:
-            painter.drawText(QPointF(20, TOP_PX * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
+            painter.drawText(QPointF(20, SCREEN_MARGINS[1] * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
         words = self.tr("Ctrl+wheel: zoom")
-        if 10 + painter.fontMetrics().horizontalAdvance(words + "0") < self.panels()[-1][0].box.left():
+        if 10 + painter.fontMetrics().horizontalAdvance(words + "0") < self.plots[-1].panel.box.left():
             painter.drawText(QPointF(10, self.height() - 10 * scale), words)  # before the times
 
     # --- read-out -----------------------------------------------------------------------------------------
@@ -511,30 +437,30 @@ class SessionChart(ZoomChart):
         plot, time_s = self._plot, self._time_s
         if plot is None or not self._cursors:
             return
-        start_s, end_s = plot.visible_s
+        start_s, end_s = self.x_range()
         is_shown = start_s <= time_s <= end_s
-        placed = self.panels()
-        series_list = [plot.read_values(key, time_s) if is_shown else [] for _, key in placed]
+        values_of = [plot.read_values(own.key, time_s) if is_shown else [] for own in self.plots]
         dots = [
-            (panel.point(time_s, value.value_deg), pg.mkBrush(self.plot_style.color(value.token)))
-            for (panel, _), values in zip(placed, series_list, strict=True)
+            (own.visible_panel.point(time_s, value.value_deg), pg.mkBrush(self.plot_style.color(value.token)))
+            for own, values in zip(self.plots, values_of, strict=True)
             for value in values
             if not value.is_occluded and math.isfinite(value.value_deg)
         ]
         self._dots.setData(
             x=[at.x() for at, _ in dots], y=[at.y() for at, _ in dots], brush=[brush for _, brush in dots]
         )
-        for line, item, (_, key), values in zip(self._cursors, self._readings, placed, series_list, strict=True):
+        most = max(map(len, values_of))
+        for own, line, item, values in zip(self.plots, self._cursors, self._readings, values_of, strict=True):
             line.setVisible(is_shown)
             line.setValue(time_s)
-            item.show_rich(self._reading_html(plot, key, values, len(placed), max(map(len, series_list))))
+            item.show_rich(self._reading_html(plot, own.key, values, most))
 
-    def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], panels: int, most: int) -> str:
+    def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], most: int) -> str:
         """Return the values beside a panel: one with its name, several as a list or in one line."""
         scale = self._theme.text_scale
         if values and not isinstance(plot, HandPlot):
             (value,) = values
-            face = fit_font(font(14 * scale, REGULAR), value.name, (RIGHT_PX - 16) * scale)
+            face = fit_font(font(14 * scale, REGULAR), value.name, (SCREEN_MARGINS[2] - 16) * scale)
             named = span_html(value.name, self.plot_style, "text2", face.pixelSize(), REGULAR)
             if not math.isfinite(value.value_deg):
                 return named
@@ -542,7 +468,7 @@ class SessionChart(ZoomChart):
             sd = span_html(numbers.format_sd(value.sd_deg), self.plot_style, "text2", 14 * scale, MEDIUM)
             return f"{named}<br>{angle} {sd}"
         finger = plot.finger if isinstance(plot, HandPlot) else 0
-        pitch = self.plots[1].panel.box.top() - self.plots[0].panel.box.top() if panels > 1 else math.inf
+        pitch = self.plots[1].panel.box.top() - self.plots[0].panel.box.top() if len(self.plots) > 1 else math.inf
         in_a_line = isinstance(plot, HandPlot) and not finger and 18.0 * scale * most > pitch
         out = []
         for value in values:
@@ -571,7 +497,7 @@ class SessionChart(ZoomChart):
         for line in self._hover_lines:
             line.setVisible(shown is not None)
             if shown is not None:
-                line.setValue(self.to_time(shown.x()))
+                line.setValue(self._visible_panel.to_time(shown.x()))
         self._hover_label.show_lines(shown, self.describe_values(shown) if shown is not None else ())
         over_edge = position is not None and self._find_edge(position) != ""
         pans = inside and self._window is not None
@@ -581,18 +507,14 @@ class SessionChart(ZoomChart):
     def describe_values(self, position: QPointF) -> list[str]:
         plot = self._plot
         assert plot is not None
-        time_s = self.to_time(position.x())
+        time_s = self._visible_panel.to_time(position.x())
         lines = [numbers.format_clock_tenths(time_s)]
-        for panel, key in self.panels():
-            if panel.box.contains(position):
-                for value in plot.read_values(key, time_s):
-                    hidden = self.tr("occluded") if value.is_occluded and math.isfinite(value.value_deg) else ""
-                    named = (
-                        value.name
-                        if not math.isfinite(value.value_deg)
-                        else f"{value.name} {value.display_text} {hidden}"
-                    )
-                    lines.append(named.strip())
+        for own in self.plots:
+            if own.panel.box.contains(position):
+                for value in plot.read_values(own.key, time_s):
+                    hidden = self.tr("occluded") if value.is_occluded else ""
+                    is_known = math.isfinite(value.value_deg)
+                    lines.append(f"{value.name} {value.display_text} {hidden}".strip() if is_known else value.name)
         return lines
 
     # --- mouse --------------------------------------------------------------------------------------------
@@ -601,7 +523,7 @@ class SessionChart(ZoomChart):
         plot = self._plot
         if plot is None or not 0 <= plot.current < len(plot.repetitions):
             return ""
-        panel = self.panels()[0][0]
+        panel = self._visible_panel
         if abs(point.y() - panel.box.center().y()) > GRIP_PX:
             return ""
         repetition = plot.repetitions[plot.current]
@@ -612,22 +534,21 @@ class SessionChart(ZoomChart):
         nearest = min(away, key=lambda edge: away[edge])
         return nearest if away[nearest] <= GRIP_PX else ""
 
-    def to_time(self, x: float) -> float:
-        panel = self.panels()[0][0]
-        share = (x - panel.box.left()) / max(panel.box.width(), 1.0)
-        return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)
+    @property
+    def _visible_panel(self) -> Panel:
+        return self.plots[0].visible_panel
 
     def click(self, event: Any) -> None:
         """Move the cursor; a double click toggles between the repetitions and the whole session."""
         if self._plot is None:
             return
         if event.double():
-            if self._plot.window_s is None:
+            if self._window is None:
                 self.show_repetitions()
             else:
                 self.show_all()
         elif not self._find_edge(event.scenePos()):
-            self.cursor_moved.emit(self.to_time(event.scenePos().x()))
+            self.cursor_moved.emit(self._visible_panel.to_time(event.scenePos().x()))
 
     def drag(self, event: Any) -> bool:
         """Drag an edge or the cursor; return False to let the plot pan."""
@@ -635,11 +556,10 @@ class SessionChart(ZoomChart):
             return False
         if event.isStart():
             at = event.buttonDownScenePos()
-            panel = self.panels()[0][0]
-            at_cursor = abs(float(panel.x(self._time_s)) - at.x()) <= GRIP_PX
+            at_cursor = abs(float(self._visible_panel.x(self._time_s)) - at.x()) <= GRIP_PX
             self._drag_target = self._find_edge(at) or ("cursor" if at_cursor or self._window is None else "")
             self.hover(None)
-        held, time_s = self._drag_target, self.to_time(event.scenePos().x())
+        held, time_s = self._drag_target, self._visible_panel.to_time(event.scenePos().x())
         if held == "cursor":
             self.cursor_moved.emit(time_s)
         elif held:
@@ -657,12 +577,3 @@ class SessionChart(ZoomChart):
         self.show_plot(replace(plot, repetitions=shown))
         if is_finished:
             self.edges_moved.emit(plot.current, moved.start_s, moved.end_s)
-
-
-def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, box: QRectF) -> None:
-    """Paint the chart into a box on paper."""
-    chart = SessionChart(Theme("light"))
-    chart.show_plot(plot)
-    chart.show_repetitions()
-    chart.render_on_paper(painter, style, box)
-    chart.deleteLater()

@@ -5,15 +5,26 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QBuffer, QByteArray, QEvent, QIODevice, QObject, QPoint, QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QContextMenuEvent, QGuiApplication, QImage, QPainter, QResizeEvent
+from PySide6.QtCore import (
+    QBuffer,
+    QByteArray,
+    QEvent,
+    QIODevice,
+    QObject,
+    QPoint,
+    QPointF,
+    QRectF,
+    QSizeF,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QColor, QContextMenuEvent, QGuiApplication, QImage, QPaintDevice, QPainter, QResizeEvent
 from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QFileDialog, QMenu
 
 from carpus.core.model.errors import CarpusFault
-from carpus.ui.charts.axes import Panel
 from carpus.ui.charts.chart import Chart, Plot
-from carpus.ui.charts.style import paper_style
+from carpus.ui.charts.panel import Panel, paper_style
 from carpus.ui.kit.button import icon_button
 from carpus.ui.kit.table_file import save_private
 from carpus.ui.kit.theme import LIGHT, Theme
@@ -36,7 +47,6 @@ class ZoomChart(Chart):
     def __init__(self, theme: Theme, file_name: str) -> None:
         super().__init__(theme)
         self._window: tuple[float, float] | None = None
-        self._is_updating = False
         self.menu = PlotMenu(self, file_name)
         self.scene().sigMouseMoved.connect(self.hover)
         self.viewport().grabGesture(Qt.GestureType.PinchGesture)
@@ -71,34 +81,21 @@ class ZoomChart(Chart):
         """Update what depends on the visible range."""
 
     # --- window -------------------------------------------------------------------------------------------
-    @property
-    def zoom_range(self) -> tuple[float, float] | None:
-        return self._window
-
     def x_range(self) -> tuple[float, float]:
         """Return both ends of the visible range."""
         return self._window or self.extent() or (0.0, 1.0)
 
     def show_window(self, window: tuple[float, float] | None) -> None:
-        extent = self.extent()
-        if window is not None and extent is not None:
-            low, high = extent
-            span = min(max(window[1] - window[0], min(self.min_span, high - low)), high - low)
-            start = min(max(window[0], low), high - span)
-            window = None if span >= (high - low) * (1.0 - 1e-9) else (start, start + span)
-        self._window = window
-        self._is_updating = True
-        if self.plots:
-            self.plots[0].setXRange(*self.x_range(), padding=0.0)
-        self._is_updating = False
-        self.update_range()
+        """Show a part of the axis, None for all; pyqtgraph keeps it within the limits."""
+        if self.plots and self.isVisible():  # those of a hidden chart may be another session's
+            self.plots[0].setXRange(*(window or self.extent() or (0.0, 1.0)), padding=0.0)
+        else:
+            self._window = window
 
     def zoom(self, factor: float, center: float) -> None:
         """Show ``factor`` times as much, keeping ``center`` in place."""
-        start, end = self.x_range()
-        span = (end - start) * factor
-        begin = center - (center - start) / (end - start) * span
-        self.show_window((begin, begin + span))
+        if self.plots:
+            self.plots[0].scaleBy(x=factor, center=(center, 0.0))
 
     def zoom_in(self) -> None:
         self.zoom(1.0 / ZOOM_STEP, self._visible_zoom_center())
@@ -113,26 +110,23 @@ class ZoomChart(Chart):
         start, end = self.x_range()
         return min(max(self.zoom_center(), start), end)
 
-    def add_plot(self, panel: Panel) -> Plot:
+    def add_plot(self, panel: Panel, key: Any = None) -> Plot:
         """Add a plot whose visible range is linked to the others'."""
-        first, plot, extent = next(iter(self.plots), None), super().add_plot(panel), self.extent()
+        plot, extent = super().add_plot(panel, key), self.extent()
         if extent is None or self.is_printing:
             return plot
         plot.setLimits(xMin=extent[0], xMax=extent[1], minXRange=min(self.min_span, extent[1] - extent[0]))
         plot.enable_mouse(self)
-        if first is not None:
-            plot.setXLink(first)
+        if plot is self.plots[0]:
+            plot.sigXRangeChanged.connect(lambda _, ends: self._set_window(extent, *ends))
         else:
-            plot.sigXRangeChanged.connect(lambda _, ends: self._apply_range(*ends))
+            plot.setXLink(self.plots[0])
         return plot
 
-    def _apply_range(self, start: float, end: float) -> None:
-        now, extent = self.x_range(), self.extent()
-        if extent is None or self._is_updating:
-            return
-        tolerance = 1e-6 * (extent[1] - extent[0])
-        if abs(start - now[0]) > tolerance or abs(end - now[1]) > tolerance:
-            self.show_window((start, end))
+    def _set_window(self, extent: tuple[float, float], start: float, end: float) -> None:
+        whole = extent[1] - extent[0]
+        self._window = None if end - start >= whole * (1.0 - 1e-9) else (start, end)
+        self.update_range()
 
     def viewportEvent(self, event: QEvent) -> bool:
         """Zoom by a pinch gesture."""
@@ -168,28 +162,20 @@ class PlotMenu(QObject):
         # Where the file dialog opens.
         self.start_folder = ""
 
-    def build_menu(self) -> QMenu:
-        card, menu = self._card, QMenu(self._card)
-        for words, action in (
-            (self.tr("Show all") + "\t0", card.show_all),
-            (self.tr("Zoom in") + "\t+", card.zoom_in),
-            (self.tr("Zoom out") + "\t-", card.zoom_out),
-            ("", None),
-            (self.tr("Copy image"), self.copy_picture),
-            (self.tr("Save image (PNG)…"), self.save_picture),
-            (self.tr("Save drawing (SVG)…"), lambda: self._save_with_dialog("svg", "SVG (*.svg)")),
-        ):
-            if action is None:
-                menu.addSeparator()
-            else:
-                menu.addAction(words).triggered.connect(lambda _=False, action=action: action())
-        return menu
-
     def open(self, position: QPoint) -> None:
-        if self._card.extent() is not None:
-            menu = self.build_menu()
-            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-            menu.popup(position)
+        card = self._card
+        if card.extent() is None:
+            return
+        menu = QMenu(card)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.addAction(self.tr("Show all") + "\t0", card.show_all)
+        menu.addAction(self.tr("Zoom in") + "\t+", card.zoom_in)
+        menu.addAction(self.tr("Zoom out") + "\t-", card.zoom_out)
+        menu.addSeparator()
+        menu.addAction(self.tr("Copy image"), self.copy_picture)
+        menu.addAction(self.tr("Save image (PNG)…"), self.save_picture)
+        menu.addAction(self.tr("Save drawing (SVG)…"), lambda: self._save_with_dialog("svg", "SVG (*.svg)"))
+        menu.popup(position)
 
     def copy_picture(self) -> None:
         QGuiApplication.clipboard().setImage(render_image(self._card))
@@ -213,66 +199,49 @@ class PlotMenu(QObject):
             self.saved.emit(str(path))
 
 
-def _size_pt(chart: Chart) -> tuple[float, float]:
+def _paint(chart: Chart, device: QPaintDevice, point: float) -> None:
+    with QPainter(device) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        margin = MARGIN_PT * point
+        box = QRectF(QPointF(), _size_pt(chart) * point).adjusted(margin, margin, -margin, -margin)
+        chart.render_on_paper(painter, paper_style(point), box)
+
+
+def _size_pt(chart: Chart) -> QSizeF:
     width_pt = WIDTH_MM * POINTS_PER_MM
-    return width_pt, width_pt * min(max(chart.height() / max(chart.width(), 1), 0.4), 1.4)
-
-
-def _paint(painter: QPainter, chart: Chart, point: float) -> None:
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    width_pt, height_pt = _size_pt(chart)
-    margin = MARGIN_PT * point
-    box = QRectF(0.0, 0.0, width_pt * point, height_pt * point)
-    chart.render_on_paper(painter, paper_style(point), box.adjusted(margin, margin, -margin, -margin))
+    return QSizeF(width_pt, width_pt * min(max(chart.height() / max(chart.width(), 1), 0.4), 1.4))
 
 
 def render_image(chart: Chart) -> QImage:
     """Return the chart as an image, 170 mm wide at 300 dpi."""
     point = DPI / 72.0
-    width_pt, height_pt = _size_pt(chart)
-    image = QImage(round(width_pt * point), round(height_pt * point), QImage.Format.Format_RGB32)
+    image = QImage((_size_pt(chart) * point).toSize(), QImage.Format.Format_RGB32)
     image.setDotsPerMeterX(round(DPI / 0.0254))
     image.setDotsPerMeterY(round(DPI / 0.0254))
     image.fill(QColor(LIGHT.surface))
-    painter = QPainter(image)
-    _paint(painter, chart, point)
-    painter.end()
+    _paint(chart, image, point)
     return image
 
 
-def render_svg(chart: Chart) -> bytes:
-    """Return the chart as SVG."""
-    point = SVG_UNITS_PER_POINT
-    width_pt, height_pt = _size_pt(chart)
-    store = QByteArray()
-    buffer = QBuffer(store)
-    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    generator = QSvgGenerator()
-    generator.setOutputDevice(buffer)
-    generator.setResolution(round(72.0 * point))
-    generator.setSize(QSize(round(width_pt * point), round(height_pt * point)))
-    generator.setViewBox(QRectF(0.0, 0.0, width_pt * point, height_pt * point))
-    painter = QPainter(generator)
-    _paint(painter, chart, point)
-    painter.end()
-    buffer.close()
-    return bytes(store.data())
-
-
 def save_chart(chart: Chart, path: Path) -> None:
-    """Save the chart in the format of the file's suffix.
+    """Save the chart as an image or, by the file's suffix, as SVG.
 
     Raises
     ------
     OutputNotWritable
             If the file cannot be written.
     """
+    store = QByteArray()
+    buffer = QBuffer(store)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     if path.suffix.lower() == ".svg":
-        content = render_svg(chart)
+        generator, size = QSvgGenerator(), _size_pt(chart) * SVG_UNITS_PER_POINT
+        generator.setOutputDevice(buffer)
+        generator.setResolution(round(72.0 * SVG_UNITS_PER_POINT))
+        generator.setSize(size.toSize())
+        generator.setViewBox(QRectF(QPointF(), size))
+        _paint(chart, generator, SVG_UNITS_PER_POINT)
     else:
-        store = QByteArray()
-        buffer = QBuffer(store)
-        buffer.open(QIODevice.OpenModeFlag.WriteOnly)
         render_image(chart).save(buffer, "PNG")  # type: ignore[call-overload]
-        content = bytes(store.data())
-    save_private(path, content)
+    buffer.close()
+    save_private(path, bytes(store.data()))

@@ -20,7 +20,7 @@ from carpus.core.model.types import Side
 from carpus.core.records.values import HomePlan
 from carpus.core.results.progress import Goals, compare_ranges, compute_progress, goal_measure
 from carpus.core.results.session_results import SessionResults
-from carpus.ui.charts.style import draw_text
+from carpus.ui.charts.panel import draw_text
 from carpus.ui.kit import language, numbers
 from carpus.ui.kit.layouts import STRETCH, Part
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD

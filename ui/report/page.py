@@ -15,8 +15,8 @@ from carpus.core.model.phrase import Phrase
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.core.results.session_results import SessionResults
-from carpus.ui.charts.session import SessionPlot, paint_session
-from carpus.ui.charts.style import PlotStyle, paper_style
+from carpus.ui.charts.chart import Chart
+from carpus.ui.charts.panel import PlotStyle, paper_style
 from carpus.ui.kit.card import Separator
 from carpus.ui.kit.cells import Cell, TableColumn
 from carpus.ui.kit.fonts import font
@@ -265,13 +265,17 @@ class PaintedPart(QWidget):
         self._paint(painter, QRectF(self.rect()))
 
 
-def session_chart_part(plot: SessionPlot, min_height: float, max_height: float) -> PaintedPart:
-    """Return curves with their axes as a part."""
-    return PaintedPart(lambda painter, box: paint_session(painter, CHART, plot, box), min_height, max_height)
+def chart_part(
+    make_chart: Callable[[Theme], Chart], min_height: float, max_height: float, style: PlotStyle = CHART
+) -> PaintedPart:
+    """Return a chart, made anew each time that it is painted, as a part."""
 
+    def paint(painter: QPainter, box: QRectF) -> None:
+        chart = make_chart(Theme("light"))
+        chart.render_on_paper(painter, style, box)
+        chart.deleteLater()
 
-def _watermark_words() -> str:
-    return tr("SIMULATED")
+    return PaintedPart(paint, min_height, max_height)
 
 
 class Report(Protocol):
@@ -310,7 +314,7 @@ class Page:
         """Lay the page out in the current language."""
         self._language = thread_language()
         self.size_pt = PAPER_PT[form.paper]
-        self._watermark = _watermark_words() if simulated else ""
+        self._watermark = tr("SIMULATED") if simulated else ""
         self._parts: list[tuple[QWidget, int, float]] = []
         top, (width, height) = PAPER.px(TOP_PT), body_size(form)
         if form.letterhead.is_set:

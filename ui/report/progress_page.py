@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import ClassVar
 
 from PySide6.QtWidgets import QLayout, QVBoxLayout
@@ -15,15 +16,14 @@ from carpus.core.records.values import Patient
 from carpus.core.results.progress import Progress, compute_progress, find_other_hand
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
-from carpus.ui.charts.progress import paint_progress_chart
+from carpus.ui.charts.progress import ProgressChart
 from carpus.ui.kit import numbers
 from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn
 from carpus.ui.kit.layouts import STRETCH, Part
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.report.page import (
-    CHART,
-    PaintedPart,
+    chart_part,
     column,
     exercise_head,
     fact_row,
@@ -129,9 +129,7 @@ def _first_page(report: ProgressReport) -> QVBoxLayout:
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
     answer, basis = headline(progress)
-    chart = PaintedPart(
-        lambda painter, box: paint_progress_chart(painter, CHART, box, progress), MIN_CHART_PT, MAX_CHART_PT
-    )
+    chart = chart_part(partial(ProgressChart, progress=progress), MIN_CHART_PT, MAX_CHART_PT)
     return column(
         fact_row(pairs),
         rule(),

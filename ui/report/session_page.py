@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import ClassVar
 
 from PySide6.QtWidgets import QLayout, QVBoxLayout, QWidget
@@ -31,7 +31,7 @@ from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults, compute_data_digest, compute_session_results
 from carpus.core.results.valid_data import JointCurves, WristCurves, joint_curves, wrist_curves
 from carpus.core.session.values import Session
-from carpus.ui.charts.session import FLEXION_KINDS, HandPlot, SessionPlot
+from carpus.ui.charts.session import FLEXION_KINDS, HandPlot, SessionChart, SessionPlot
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import ColorFill
 from carpus.ui.kit.cells import cell_text
@@ -44,6 +44,7 @@ from carpus.ui.report.page import (
     PAPER,
     RoundedBox,
     break_lines,
+    chart_part,
     column,
     exercise_head,
     fact_row,
@@ -53,7 +54,6 @@ from carpus.ui.report.page import (
     paragraph,
     rule,
     section_title,
-    session_chart_part,
     table,
     to_layout_units,
     value_rows,
@@ -358,7 +358,7 @@ def _curves(report: SessionReport) -> list[Part]:
     if any(math.isfinite(target) for target in results.targets_deg):
         aside += "; " + tr("dashed: goal")
     plot = SessionPlot(report.curves, results.exercise, results.repetitions, -1, *results.targets_deg)
-    return [section_title(tr("Angles over time"), aside), session_chart_part(plot, 190.0, 400.0)]
+    return [section_title(tr("Angles over time"), aside), chart_part(partial(SessionChart, plot=plot), 190.0, 400.0)]
 
 
 def _boxes(report: SessionReport) -> list[Part]:
@@ -439,7 +439,10 @@ def _finger_curve_section(curves: WristCurves, joints: JointCurves, results: Ses
         key += [swatch, 4.0, label(name, 8.5, REGULAR, "text2"), 8.0]
     key.append(label(tr("dashed: occluded; hatched: lost"), 8.5, REGULAR, "text2"))
     plot = HandPlot(curves, results.exercise, results.repetitions, -1, joints=joints)
-    return [section_title(tr("Finger flexion over time"), *key), session_chart_part(plot, 140.0, 220.0)]
+    return [
+        section_title(tr("Finger flexion over time"), *key),
+        chart_part(partial(SessionChart, plot=plot), 140.0, 220.0),
+    ]
 
 
 SECTIONS = (

@@ -21,7 +21,7 @@ from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import PlaybackTimeline, SessionPair, align_playback, compare_pair, order_pair
 from carpus.core.results.valid_data import motion_estimate
 from carpus.core.session.values import Session
-from carpus.ui.charts.session import find_nearest_row
+from carpus.ui.charts.series import find_nearest_row
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.card import Card, KeyCaps

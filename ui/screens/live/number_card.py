@@ -14,9 +14,8 @@ from carpus.core.model.hand.forearm_rotation import axis_limits_deg, is_counted_
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import TrackStatus
 from carpus.core.records.session_setup import SessionSetup
-from carpus.ui.charts.axes import draw_hatching
 from carpus.ui.charts.history import History
-from carpus.ui.charts.style import screen_style
+from carpus.ui.charts.panel import draw_hatching, screen_style
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import paint_card
 from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD, font

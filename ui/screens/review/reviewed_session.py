@@ -19,7 +19,7 @@ from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults, compute_session_results
 from carpus.core.results.valid_data import JointCurves, WristCurves, joint_curves, wrist_curves
 from carpus.core.session.values import Session
-from carpus.ui.charts.session import move_edge, read_wrist_angle
+from carpus.ui.charts.session import move_edge, wrist_series
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr
 from carpus.ui.picture.session_frames import project_markers
@@ -107,9 +107,8 @@ class ReviewedSession:
         if self.is_hand:
             hidden = int((~np.isfinite(self.session.markers.measured_px[row, :, 0])).sum())
             return _occlusion_words(hidden) if hidden else ""
-        return _wrist_text(
-            self.results.exercise, self._main_column, *read_wrist_angle(self.curves, self._main_column, time_s)
-        )
+        value, sd, _ = wrist_series(self.curves, self._main_column).read_value(time_s)
+        return _wrist_text(self.results.exercise, self._main_column, value, sd)
 
     @property
     def _main_column(self) -> int:

@@ -13,7 +13,8 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLineEdit, QWidget
 from carpus.core.model.types import TrackStatus
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices, RepetitionResult
 from carpus.core.results.session_results import SessionResults
-from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot, find_nearest_row
+from carpus.ui.charts.series import find_nearest_row
+from carpus.ui.charts.session import HandPlot, SessionChart, SessionPlot
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, KeyCaps

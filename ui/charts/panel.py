@@ -1,18 +1,56 @@
-"""Panels with a fixed scale, their tick labels, and hatching for missing data."""
+"""Panels of charts: their style, fixed scale and time axis, hatching where data are missing, and text."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF
-from PySide6.QtGui import QPainter, QPen
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPen
 
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
-from carpus.ui.charts.style import PlotStyle
 from carpus.ui.kit import numbers
+from carpus.ui.kit.fonts import MEDIUM, REGULAR, font
+from carpus.ui.kit.theme import LIGHT, Theme, Tokens
+
+
+@dataclass(frozen=True, slots=True)
+class PlotStyle:
+    """Colours, fonts, and widths in the painter's unit (pixels on the screen, points on paper)."""
+
+    tokens: Tokens
+    label_font: QFont
+    end_label_font: QFont
+    line_width: float
+    grid_width: float
+    # One design pixel in the painter's unit; gaps and dashes are multiples of it.
+    unit: float
+
+    def color(self, token: str, alpha: int = 255) -> QColor:
+        value = QColor(getattr(self.tokens, token))
+        value.setAlpha(alpha)
+        return value
+
+
+def screen_style(theme: Theme) -> PlotStyle:
+    """Return the style of the theme."""
+    return _screen_style(theme.tokens, theme.text_scale)
+
+
+@lru_cache(maxsize=8)
+def _screen_style(tokens: Tokens, text_scale: float) -> PlotStyle:
+    size = 12 * text_scale
+    return PlotStyle(tokens, font(size, REGULAR), font(size, MEDIUM), 1.75, 1.0, 1.0)
+
+
+def paper_style(point_px: float) -> PlotStyle:
+    """Return the style of printed pages, always light, for ``point_px`` painter units per point."""
+    regular, medium = (font(8.5 * point_px, weight, display=False) for weight in (REGULAR, MEDIUM))
+    return PlotStyle(LIGHT, regular, medium, 1.2 * point_px, 0.6 * point_px, 0.75 * point_px)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,35 +96,31 @@ class Panel:
     end_s: float
 
     def x(self, time_s: FloatArray | float) -> FloatArray:
-        return x_px(np.asarray(time_s, dtype=np.float64), *self.x_parameters())
+        span_s = self.end_s - self.start_s
+        return np.asarray(self.box.left() + (np.asarray(time_s) - self.start_s) / span_s * self.box.width())
 
     def y(self, value: FloatArray | float) -> FloatArray:
         """Return painter y of values, clipped to the panel."""
-        return y_px(np.asarray(value, dtype=np.float64), *self.y_parameters())
+        low, high = self.scale.low, self.scale.high
+        below = (high - np.minimum(np.maximum(value, low), high)) / (high - low)
+        return np.asarray(self.box.top() + below * self.box.height())
 
     def point(self, time_s: float, value: float) -> QPointF:
         return QPointF(float(self.x(time_s)), float(self.y(value)))
 
-    def x_parameters(self) -> tuple[float, float, float, float]:
-        """Return the arguments that :func:`x_px` needs after the times."""
-        return self.box.left(), self.box.width(), self.start_s, self.end_s
-
-    def y_parameters(self) -> tuple[float, float, float, float]:
-        """Return the arguments that :func:`y_px` needs after the values."""
-        return self.box.top(), self.box.height(), self.scale.low, self.scale.high
+    def to_time(self, x: float) -> float:
+        """Return the time at a painter x, the nearest end beyond the panel."""
+        share = (x - self.box.left()) / max(self.box.width(), 1.0)
+        return self.start_s + min(max(share, 0.0), 1.0) * (self.end_s - self.start_s)
 
 
-Bound = float | FloatArray
-
-
-def x_px(time_s: FloatArray, left: Bound, width: Bound, start_s: Bound, end_s: Bound) -> FloatArray:
-    """Return painter x of times in one panel, or each in a panel of its own."""
-    return np.asarray(left + (time_s - start_s) / (end_s - start_s) * width)
-
-
-def y_px(value: FloatArray, top: Bound, height: Bound, low: Bound, high: Bound) -> FloatArray:
-    """Return painter y of values, clipped to one panel or each to a panel of its own."""
-    return np.asarray(top + (high - np.minimum(np.maximum(value, low), high)) / (high - low) * height)
+def stack_boxes(box: QRectF, weights: Sequence[float], between: float) -> list[QRectF]:
+    """Divide a box into boxes one below the other, as high as their weights."""
+    unit, top, boxes = (box.height() - between * (len(weights) - 1)) / sum(weights), box.top(), list[QRectF]()
+    for weight in weights:
+        boxes.append(QRectF(box.left(), top, box.width(), unit * weight))
+        top += unit * weight + between
+    return boxes
 
 
 def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
@@ -98,9 +132,17 @@ def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
     return [(t, word(t)) for t in ticks.tolist()]
 
 
-def align_to_pixels(box: QRectF) -> QRectF:
-    """Round a rectangle so that its edges lie between pixels."""
-    return QRectF(box.toRect())
+def draw_text(
+    painter: QPainter, place: QPointF | QRectF, words: str, face: QFont, color: QColor,
+    side: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignVCenter,
+) -> None:  # fmt: skip
+    """Write words from a baseline's left end, or in a box: left and vertically centred by default."""
+    painter.setFont(face)
+    painter.setPen(color)
+    if isinstance(place, QPointF):
+        painter.drawText(place, words)
+    else:
+        painter.drawText(place, int(side), words)
 
 
 def draw_hatching(
