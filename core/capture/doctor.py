@@ -103,10 +103,10 @@ def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterato
     yield check_fonts()
 
 
-def check_packages(names: tuple[str, ...] = PACKAGES) -> Finding:
+def check_packages() -> Finding:
     """Check the packages that every command needs."""
     known, missing = [], []
-    for name in names:
+    for name in PACKAGES:
         try:
             known.append(f"{name} {version(name)}")
         except PackageNotFoundError:

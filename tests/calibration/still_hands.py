@@ -73,8 +73,8 @@ def make_frames(
     return out
 
 
-def click_discs(scene: Scene, error_px: FloatArray | float = 0.0) -> Clicks:
-    return Clicks(scene.side, WRIST6, scene.discs_px + error_px)
+def click_discs(scene: Scene) -> Clicks:
+    return Clicks(scene.side, WRIST6, scene.discs_px)
 
 
 @lru_cache(maxsize=8)
@@ -88,12 +88,15 @@ def render_still_hand(scene: Scene, count: int = 17) -> list[Frame]:
 
 
 def run_calibration(
-    scene: Scene,
-    clicks: Clicks | None = None,
-    frames: list[Frame] | None = None,
-    settings: CalibrationSettings | None = None,
+    scene: Scene, clicks: Clicks | None = None, frames: list[Frame] | None = None
 ) -> CalibrationOutcome:
-    own = settings or CalibrationSettings()
-    return calibrate_hand(
-        clicks or click_discs(scene), frames or render_still_hand(scene), CAMERA, own, DetectionSettings()
-    )
+    """What is calibrated of a hand; of one that is clicked well and lies still, once for all tests."""
+    if clicks is None and frames is None:
+        return _calibrate_still(scene)
+    frames = frames or render_still_hand(scene)
+    return calibrate_hand(clicks or click_discs(scene), frames, CAMERA, CalibrationSettings(), DetectionSettings())
+
+
+@lru_cache(maxsize=8)
+def _calibrate_still(scene: Scene) -> CalibrationOutcome:
+    return run_calibration(scene, click_discs(scene))

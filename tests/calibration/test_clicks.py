@@ -49,14 +49,12 @@ def test_write_clicks_are_read_back(tmp_path: Path) -> None:
     assert content["markers"]["TIP5"] == pixel[20].tolist()
 
 
-def test_write_clicks_keeps_straight_fingers(tmp_path: Path) -> None:
-    path, said = tmp_path / "c.json", (True, True, False, True, True)
+@pytest.mark.parametrize("said", [(True, True, False, True, True), (True,) * 5])
+def test_write_clicks_keeps_straight_fingers(tmp_path: Path, said: tuple[bool, ...]) -> None:
+    path = tmp_path / "c.json"
     write_clicks(path, Clicks("left", HAND21, np.zeros((21, 2)), said))
     assert read_clicks(path).straight_fingers == said
     assert read_clicks(write(tmp_path / "d.json", GOOD)).straight_fingers == ()
-    said = (True,) * 5
-    write_clicks(tmp_path / "f.json", Clicks("left", HAND21, np.zeros((21, 2)), said))
-    assert read_clicks(tmp_path / "f.json").straight_fingers == said
     for wrong in ([True] * 4, "yes", [1] * 5):
         with pytest.raises(ClicksUnreadable, match="straight_fingers"):
             read_clicks(write(tmp_path / "e.json", GOOD | {"straight_fingers": wrong}))
@@ -72,36 +70,21 @@ def test_write_clicks_existing_file_is_refused(tmp_path: Path) -> None:
         write_clicks(tmp_path / "nowhere" / "c.json", clicks)
 
 
-def change_content(**change: Any) -> dict[str, Any]:
-    return GOOD | change
-
-
 def markers(**change: Any) -> dict[str, Any]:
-    return change_content(markers=MARKERS | change)
+    return GOOD | {"markers": MARKERS | change}
 
 
 BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
     "empty": ("", ClicksUnreadable, "not JSON, line 1"),
-    "cut off": (json.dumps(GOOD)[:60], ClicksUnreadable, "not JSON"),
     "no object": ([1, 2], ClicksUnreadable, "object"),
     "nested without end": ("[" * 100_000, ClicksUnreadable, "not JSON"),
-    "third hand": (change_content(hand="both"), ClicksUnreadable, '"both"'),
-    "no hand": ({"protocol": "wrist6", "markers": MARKERS}, ClicksUnreadable, "hand is null"),
-    "unknown protocol": (change_content(protocol="foot26"), ProtocolUnknown, "wrist6, hand21"),
-    "no protocol": ({"hand": "right", "markers": MARKERS}, ProtocolUnknown, "wrist6"),
-    "other protocol": (change_content(protocol="hand21"), ClicksUnreadable, "no click for DIP2"),
-    "no markers": (change_content(markers=None), ClicksUnreadable, "no markers"),
-    "markers as a list": (change_content(markers=[[1, 2]] * 6), ClicksUnreadable, "no markers"),
+    "third hand": (GOOD | {"hand": "both"}, ClicksUnreadable, '"both"'),
+    "unknown protocol": (GOOD | {"protocol": "foot26"}, ProtocolUnknown, "wrist6, hand21"),
+    "other protocol": (GOOD | {"protocol": "hand21"}, ClicksUnreadable, "no click for DIP2"),
+    "markers as a list": (GOOD | {"markers": [[1, 2]] * 6}, ClicksUnreadable, "no markers"),
     "extra marker": (markers(TIP2=[1, 2]), ClicksUnreadable, "unknown marker TIP2"),
-    "missing marker": (
-        change_content(markers={k: v for k, v in MARKERS.items() if k != "MCP4"}),
-        ClicksUnreadable,
-        "no click for MCP4",
-    ),
     "a word": (markers(MCP2=["300", 210]), ClicksUnreadable, "MCP2"),
-    "null": (markers(MCP2=None), ClicksUnreadable, "MCP2"),
     "not a number": (markers(MCP2=[float("nan"), 210]), ClicksUnreadable, "MCP2"),
-    "without end": (markers(MCP2=[300, float("inf")]), ClicksUnreadable, "MCP2"),
     "hundreds of digits": (markers(MCP2=[10**400, 210]), ClicksUnreadable, "MCP2"),
     "true": (markers(MCP2=[True, 210]), ClicksUnreadable, "MCP2"),
     "three numbers": (markers(MCP2=[1, 2, 3]), ClicksUnreadable, "MCP2"),
@@ -123,11 +106,9 @@ def test_read_clicks_invalid_file_is_refused_with_reason(tmp_path: Path, case: s
 
 
 def test_read_clicks_missing_or_binary_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ClicksUnreadable) as caught:
-        read_clicks(tmp_path / "nowhere.json")
-    assert caught.value.detail == "file not found"
-    (tmp_path / "binary.json").write_bytes(b"\xff\xfe\x00\x01")
-    with pytest.raises(ClicksUnreadable):
-        read_clicks(tmp_path / "binary.json")
-    with pytest.raises(ClicksUnreadable):
-        read_clicks(tmp_path)
+    binary = tmp_path / "binary.json"
+    binary.write_bytes(b"\xff\xfe\x00\x01")
+    for path, why in ((tmp_path / "nowhere.json", "file not found"), (binary, "not a text file"), (tmp_path, "")):
+        with pytest.raises(ClicksUnreadable) as caught:
+            read_clicks(path)
+        assert why in caught.value.detail

@@ -34,39 +34,37 @@ def visible_plan(seed: int, side: Side, protocol: str = "hand21") -> FloatArray:
     return _visible_plan(seed, side, protocol).copy()
 
 
-# --- the side -------------------------------------------------------------------------------
 @pytest.mark.parametrize("protocol", PROTOCOLS)
 @pytest.mark.parametrize("side", SIDES)
 def test_other_side_is_found_and_own_side_accepted(protocol: str, side: Side) -> None:
     claimed: Side = "left" if side == "right" else "right"
-    for seed in range(12):
+    for seed in range(6):
         plan = visible_plan(seed, side, protocol)
         assert not is_other_side(PROTOCOLS[protocol], side, plan)
         assert is_other_side(PROTOCOLS[protocol], claimed, plan)
 
 
 @pytest.mark.parametrize("side", SIDES)
-def test_shifted_labels_of_every_permutation_are_named(side: Side) -> None:
-    for seed in range(2):
-        plan = visible_plan(seed, side, "wrist6")
-        for order in list(permutations(range(6)))[1:]:
-            wrong = find_shifted_labels(side, plan[list(order)])
-            assert set(wrong) == {PALM_MARKERS[i] for i in range(6) if order[i] != i}
-            # The disc under a name is order[i]; what it should be called follows in the list.
-            first = PALM_MARKERS.index(wrong[0])
-            assert wrong[1] == PALM_MARKERS[order[first]]
+def test_shifted_labels_of_a_permutation_are_named(side: Side) -> None:
+    """Every seventh of them, of which each marker has each place."""
+    plan = visible_plan(0, side, "wrist6")
+    for order in list(permutations(range(6)))[1::7]:
+        wrong = find_shifted_labels(side, plan[list(order)])
+        assert set(wrong) == {PALM_MARKERS[i] for i in range(6) if order[i] != i}
+        # The disc under a name is order[i]; what it should be called follows in the list.
+        first = PALM_MARKERS.index(wrong[0])
+        assert wrong[1] == PALM_MARKERS[order[first]]
 
 
 @pytest.mark.parametrize(("axis", "tilt_deg"), [("x", -35.0), ("y", 35.0)])
 def test_shifted_labels_of_a_tilted_hand_are_found(axis: str, tilt_deg: float) -> None:
-    for seed in range(6):
+    for seed in range(3):
         flat = np.column_stack((visible_plan(seed, "right", "wrist6"), np.zeros(6)))
         plan = Rotation.from_euler(axis, tilt_deg, degrees=True).apply(flat - flat.mean(axis=0))[:, :2]
         assert find_shifted_labels("right", plan) == ()
         assert find_shifted_labels("right", np.roll(plan, 1, axis=0))[:2] == ("WRIST", "MCP5")
 
 
-# --- the whole hand -------------------------------------------------------------------------
 def bend_plan(rng: np.random.Generator, side: Side) -> FloatArray:
     """A hand with every finger bent and spread by itself, as far as its tips stay in view, a little tilted."""
     angle = dict.fromkeys(joint_angle_names(), 0.0)
@@ -86,10 +84,10 @@ def bend_plan(rng: np.random.Generator, side: Side) -> FloatArray:
 
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_label_fault_of_right_labels_is_none(side: Side) -> None:
-    for seed in range(12):
+    for seed in range(6):
         assert find_label_fault(HAND21, side, visible_plan(seed, side)) is None
     rng = np.random.default_rng(4)
-    assert [find_label_fault(HAND21, side, bend_plan(rng, side)) for _ in range(80)] == [None] * 80
+    assert [find_label_fault(HAND21, side, bend_plan(rng, side)) for _ in range(40)] == [None] * 40
 
 
 def test_label_fault_two_swapped_fingers_are_named() -> None:

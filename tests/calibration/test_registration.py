@@ -46,7 +46,7 @@ def test_depth_offset_of_registered_depth_is_zero(takes: list[tuple[SimulatedRec
     assert [offset_px(*take) for take in takes] == [0.0] * len(takes)
 
 
-@pytest.mark.parametrize("shift", [(12, 0), (-12, 0), (10, -10)])
+@pytest.mark.parametrize("shift", [(-12, 0), (10, -10)])
 def test_depth_offset_of_shifted_depth_is_found(
     shift: tuple[int, int], takes: list[tuple[SimulatedRecording, Frame]]
 ) -> None:
@@ -67,12 +67,6 @@ def test_depth_offset_without_depth_or_markers_is_zero(takes: list[tuple[Simulat
 def test_calibrate_hand_depth_offset_is_found(takes: list[tuple[SimulatedRecording, Frame]]) -> None:
     pictures, frame = takes[0]
     clicks, camera = sample_clicks(pictures.truth), pictures.truth.camera
-    kinds = [
-        [
-            finding.kind
-            for finding in calibrate_hand(clicks, [each], camera, CalibrationSettings(), DETECTION).verdict.findings
-        ]
-        for each in (frame, shift_depth(frame, 12, 0))
-    ]
-    assert "depth_off" not in kinds[0]
-    assert "depth_off" in kinds[1]
+    for each, is_off in ((frame, False), (shift_depth(frame, 12, 0), True)):
+        found = calibrate_hand(clicks, [each], camera, CalibrationSettings(), DETECTION).verdict.findings
+        assert ("depth_off" in [finding.kind for finding in found]) == is_off

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,13 +30,13 @@ def color_picture(number: int, width: int = WIDTH, height: int = HEIGHT) -> Byte
     return picture
 
 
-def depth_picture(number: int, width: int = WIDTH, height: int = HEIGHT) -> DepthImage:
+def depth_picture(number: int) -> DepthImage:
     """Noise, steps, holes; the first pixel holds the number."""
     rng = np.random.default_rng(number)
-    rows, columns = np.mgrid[0:height, 0:width]
-    picture = (600 + columns + 2 * rows + rng.integers(0, 4, (height, width))).astype(np.uint16)
-    picture[height // 4 : height // 2] = 2500
-    picture[rng.random((height, width)) < 0.03] = 0
+    rows, columns = np.mgrid[0:HEIGHT, 0:WIDTH]
+    picture = (600 + columns + 2 * rows + rng.integers(0, 4, (HEIGHT, WIDTH))).astype(np.uint16)
+    picture[HEIGHT // 4 : HEIGHT // 2] = 2500
+    picture[rng.random((HEIGHT, WIDTH)) < 0.03] = 0
     picture[0, 0] = 5000 + number
     return picture
 
@@ -46,23 +47,18 @@ def write_sample(
     *,
     color: ColorCodec = "raw",
     depth: DepthCodec | None = "table",
-    color_camera: Camera = CAMERA,
     depth_unit_m: float = 1e-3,
     mirrored: bool = False,
-    period_s: float = PERIOD_S,
 ) -> Path:
     """A recording of ``count`` colour and depth pictures; depth comes 3 ms late."""
-    width, height = color_camera.width_px, color_camera.height_px
-    writer = OniWriter(path, color_camera, color=color, depth=depth, depth_unit_m=depth_unit_m, mirrored=mirrored)
+    writer = OniWriter(path, CAMERA, color=color, depth=depth, depth_unit_m=depth_unit_m, mirrored=mirrored)
     side = -1 if mirrored else 1
-    with writer:
+    with closing(writer):
         for number in range(1, count + 1):
-            time_s = START_S + (number - 1) * period_s
-            picture = color_picture(number, width, height)[:, ::side]
-            writer.add_color(np.ascontiguousarray(picture), time_s)
+            time_s = START_S + (number - 1) * PERIOD_S
+            writer.add_color(np.ascontiguousarray(color_picture(number)[:, ::side]), time_s)
             if depth:
-                distances = depth_picture(number, width, height)[:, ::side]
-                writer.add_depth(np.ascontiguousarray(distances), time_s + DEPTH_LATE_S)
+                writer.add_depth(np.ascontiguousarray(depth_picture(number)[:, ::side]), time_s + DEPTH_LATE_S)
     return path
 
 

@@ -9,6 +9,7 @@ import struct
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Literal
 
@@ -38,21 +39,21 @@ _FRAME_SIZE, _MAX_DEPTH = "oniRequiredFrameSize", "xnDeviceMaxDepth"
 _DEPTH_FORMATS = ((1e-3, PixelFormat.DEPTH_1_MM), (1e-4, PixelFormat.DEPTH_100_UM))
 
 
+@dataclasses.dataclass
 class _Stream:
     """One stream while it is written."""
 
-    def __init__(self, node: int, name: str, kind: NodeType, codec: bytes) -> None:
-        self.node = node
-        self.name = name
-        self.kind = kind
-        self.codec = codec
-        self.added_at = 0
-        self.last_at = 0
-        self.entries: list[tuple[int, int]] = []
+    node: int
+    name: str
+    kind: NodeType
+    codec: bytes
+    added_at: int = 0
+    last_at: int = 0
+    entries: list[tuple[int, int]] = dataclasses.field(default_factory=list)
 
 
 class OniWriter:
-    """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`."""
+    """Writes one recording; the file is whole only after :meth:`close`."""
 
     def __init__(
         self,
@@ -73,7 +74,7 @@ class OniWriter:
         self._greatest_us = 0
         self._stream_count = 2 if depth else 1
         self._file = path.open("xb")
-        self._write(self._header(NOT_KNOWN))
+        self._file.write(self._header(NOT_KNOWN))
         if depth:
             codec = Codec.DEPTH_TABLE if depth == "table" else Codec.RAW
             self._add_stream("Depth", NodeType.DEPTH, codec, formats[0])
@@ -88,21 +89,14 @@ class OniWriter:
     def add_color(self, color_rgb: ByteImage, timestamp_s: float) -> None:
         """Append a colour picture (H, W, 3); times rise strictly."""
         stream = self._streams[NodeType.IMAGE]
-        self._picture(
-            stream, timestamp_s, encode_color(color_rgb) if stream.codec == Codec.JPEG else color_rgb.tobytes()
-        )
+        payload = encode_color(color_rgb) if stream.codec == Codec.JPEG else color_rgb.tobytes()
+        self._picture(stream, timestamp_s, payload)
 
     def add_depth(self, depth_raw: DepthImage, timestamp_s: float) -> None:
         """Append a depth picture (H, W) in the unit given at the start."""
         stream = self._streams[NodeType.DEPTH]
         payload = encode_depth(depth_raw) if stream.codec == Codec.DEPTH_TABLE else depth_raw.tobytes()
         self._picture(stream, timestamp_s, payload)
-
-    def __enter__(self) -> OniWriter:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def close(self) -> None:
         """Write the tables and the end."""
@@ -117,9 +111,9 @@ class OniWriter:
         self._record(RecordType.END, 0)
         for stream in self._streams.values():
             self._file.seek(stream.added_at)
-            self._write(self._added(stream, seek_at.get(stream.node, 0), len(stream.entries)))
+            self._file.write(self._added(stream, seek_at.get(stream.node, 0), len(stream.entries)))
         self._file.seek(0)
-        self._write(self._header(self._greatest_us))
+        self._file.write(self._header(self._greatest_us))
         self._file.close()
 
     def _picture(self, stream: _Stream, timestamp_s: float, payload: bytes) -> None:
@@ -133,8 +127,8 @@ class OniWriter:
         stream = self._streams[kind] = _Stream(len(self._streams) + 1, name, kind, codec)
         camera = self._camera
         is_depth = kind == NodeType.DEPTH
-        stream.added_at = self._tell()
-        self._write(self._added(stream, 0, 0xFFFFFFFF))
+        stream.added_at = self._file.tell()
+        self._file.write(self._added(stream, 0, 0xFFFFFFFF))
         mode = struct.pack("<III", camera.width_px, camera.height_px, self._fps)
         self._int(stream, _FRAME_SIZE, camera.width_px * camera.height_px * (2 if is_depth else 3))
         self._int(stream, "xnIsGenerating", 1)
@@ -172,16 +166,10 @@ class OniWriter:
         self._record(kind, stream.node, _string(name) + struct.pack("<I", len(data)) + data)
 
     def _record(self, kind: RecordType, node: int, fields: bytes = b"", payload: bytes = b"", replaces: int = 0) -> int:
-        position = self._tell()
-        self._write(_record_bytes(kind, node, fields, len(payload), replaces))
-        self._write(payload)
+        position = self._file.tell()
+        self._file.write(_record_bytes(kind, node, fields, len(payload), replaces))
+        self._file.write(payload)
         return position
-
-    def _tell(self) -> int:
-        return self._file.tell()
-
-    def _write(self, data: bytes) -> None:
-        self._file.write(data)
 
 
 def write_oni(
@@ -194,7 +182,7 @@ def write_oni(
     simulated: bool = False,
 ) -> None:
     """Write ``frames``, depth in millimetres, to ``path``, and the camera beside it (``NAME.camera_info.yaml``)."""
-    with OniWriter(path, camera, fps=fps, color=color) as writer:
+    with closing(OniWriter(path, camera, fps=fps, color=color)) as writer:
         for frame in frames:
             if frame.depth_raw is not None:
                 writer.add_depth(frame.depth_raw, frame.timestamp_s)

@@ -56,7 +56,7 @@ ESCAPES = st.builds(
 TABLE = (np.arange(0x300) * 7 + 500).astype("<u2")
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.lists(STEPS | RUNS | ESCAPES, max_size=60), st.sampled_from([0, 100, 0x2FF]))
 def test_oni_depth_any_stream_matches_independent_decoder(parts: list[bytes], first: int) -> None:
     index = first.to_bytes(2, "little") + b"".join(parts)
@@ -71,7 +71,7 @@ def test_oni_depth_any_stream_matches_independent_decoder(parts: list[bytes], fi
     np.testing.assert_array_equal(decode_depth(index, Codec.DEPTH_PLAIN, shape), (np.array([expected]) - 500) // 7)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.binary(max_size=300), st.sampled_from([Codec.DEPTH_TABLE, Codec.DEPTH_PLAIN, Codec.RAW]))
 def test_oni_depth_any_bytes_give_image_or_none(data: bytes, codec: bytes) -> None:
     read = decode_depth(data, codec, (4, 5))

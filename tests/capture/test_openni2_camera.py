@@ -98,32 +98,32 @@ def test_openni2_camera_slow_reader_counts_drops_until_closed(
     assert spanned == len(frames) + lost
 
 
-@pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGSTOP])
-def test_openni2_camera_lost_reconnects(
-    camera: ProcessCamera, notices: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
+def test_openni2_camera_hanging_is_restarted_and_close_ends_reconnecting(
+    camera: ProcessCamera, notices: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(CaptureProcess.receive_report, "__defaults__", (2.0,))
     frames = []
     for frame in camera.frames():
         frames.append(frame)
         if len(frames) == 5:
-            blow(camera, how)
+            blow(camera, signal.SIGSTOP)
         if len(frames) == 30 and CameraReturned in map(type, notices):
             break
     assert_rising(frames[:30])
     assert [type(fault) for fault in notices] == [DepthNotRegistered, CameraLost, CameraReturned]
-    assert "SIGSEGV" in notices[1].detail or "no answer" in notices[1].detail
+    assert "no answer" in notices[1].detail
     steps_s = [later.timestamp_s - earlier.timestamp_s for earlier, later in pairwise(frames)]
     away = max(range(len(steps_s)), key=steps_s.__getitem__)
     # the gap is the time that really passed, and the frames missing in it are counted
     assert steps_s[away] > 2 * PERIOD_S
     assert frames[away + 1].dropped_before == round(steps_s[away] / (1 / 30)) - 1
-
-
-def test_openni2_camera_lost_before_reading_reconnects(camera: ProcessCamera, notices: list[CarpusFault]) -> None:
     blow(camera, signal.SIGKILL)
-    assert_rising(list(islice(camera.frames(), 3)))
-    assert [type(fault) for fault in notices] == [DepthNotRegistered, CameraLost, CameraReturned]
+    camera._plan = CameraConfig(uri="1d27/0601@9/9")
+    reader = threading.Thread(target=lambda: list(camera.frames()))
+    reader.start()
+    camera.close()
+    reader.join(10.0)
+    assert not reader.is_alive()
 
 
 @pytest.mark.usefixtures("short_retry")
@@ -155,23 +155,9 @@ def test_openni2_camera_repeated_crash_or_missing_driver_raises(
         assert bool(waited) == isinstance(fault, DriverFailed)
 
 
-def test_openni2_camera_close_ends_reconnecting(camera: ProcessCamera) -> None:
-    frames = camera.frames()
-    next(frames)
-    camera._plan = CameraConfig(uri="1d27/0601@9/9")
-    blow(camera, signal.SIGKILL)
-    reader = threading.Thread(target=lambda: list(frames))
-    reader.start()
-    camera.close()
-    reader.join(10.0)
-    assert not reader.is_alive()
-
-
 def test_openni2_camera_missing_raises() -> None:
     with pytest.raises(CameraMissing):
         KIND.open("1d27/0601@9/9")
-    with pytest.raises(CameraMissing):
-        KIND.open()
 
 
 def test_openni2_camera_uses_measured_intrinsics(notices: list[CarpusFault]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -11,15 +10,15 @@ from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+from unittest import mock
 
 import numpy as np
 import pytest
 
 from carpus.core.capture.devices import orbbec
-from carpus.core.capture.devices.cameras import open_camera
+from carpus.core.capture.devices.cameras import open_camera, require_package
 from carpus.core.capture.devices.capture_process import CameraConfig
 from carpus.core.capture.devices.orbbec import (
-    check_driver,
     choose_streams,
     find_device,
     find_sensor,
@@ -92,14 +91,8 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, notices: list[Carp
     assert notices[0].detail == "unplugged"
 
 
-def find_driver() -> Finding:
-    found = check_driver(True, True)
-    assert found is not None
-    return found
-
-
 def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert find_driver().state == "good"
+    assert orbbec.KIND.check_driver(True, True) == Finding("Orbbec driver", "good", require_package(orbbec.PACKAGE))
     assert orbbec.check_firmware_and_usb({"usb": "2.1"})[0].state == "warning"
     (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.udev_rules)
     assert check_udev_rules(orbbec.KIND, (tmp_path,)).state == "good"
@@ -108,8 +101,7 @@ def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyP
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert check_driver(True, False) is None
-    assert find_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
+    assert orbbec.KIND.check_driver(True, False) is None
     with pytest.raises(ExtraMissing) as notices:
         open_camera(f"orbbec:{SERIAL}")
     assert format_fault_line(notices.value).endswith("-m pip install --no-deps pyorbbecsdk2”. (C-001)")
@@ -147,15 +139,19 @@ def test_orbbec_choose_streams_prefers_wanted_size() -> None:
 
     def chosen(colors: list[tuple[int, int]], depths: list[tuple[int, int]]) -> tuple[int, int, int]:
         def listed(sensor: Any) -> Any:
-            sizes, form = (
-                (colors, ob.OBFormat.RGB) if sensor == ob.OBSensorType.COLOR_SENSOR else (depths, ob.OBFormat.Y16)
-            )
-            return SimpleNamespace(
-                get_count=lambda: len(sizes),
-                get_stream_profile_by_index=lambda at: SimpleNamespace(
-                    as_video_stream_profile=lambda: Profile(*sizes[at], form)
-                ),
-            )
+            is_color = sensor == ob.OBSensorType.COLOR_SENSOR
+            profiles = [
+                mock.Mock(
+                    get_width=lambda width=width: width,
+                    get_height=lambda height=height: height,
+                    get_fps=lambda: 30,
+                    get_format=lambda: ob.OBFormat.RGB if is_color else ob.OBFormat.Y16,
+                )
+                for width, height in (colors if is_color else depths)
+            ]
+            for profile in profiles:
+                profile.as_video_stream_profile.return_value = profile
+            return SimpleNamespace(get_count=lambda: len(profiles), get_stream_profile_by_index=lambda at: profiles[at])
 
         streams = choose_streams(ob, SimpleNamespace(get_stream_profile_list=listed))
         return streams.color.get_width(), streams.depth.get_width(), streams.downscale
@@ -180,20 +176,3 @@ def test_orbbec_find_sensor_by_model(name: str, kind: str, origin: str) -> None:
     sensor = find_sensor({"camera": name, "depth_focal_px": "370.0"})
     assert (sensor.kind, sensor.origin) == (kind, origin)
     assert sensor.baseline_m == {"Orbbec Gemini 335": 0.050, "Orbbec Gemini 335L": 0.095}.get(name, 0.0)
-
-
-class Profile:
-    def __init__(self, width: int, height: int, form: Any) -> None:
-        self._size, self._form = (width, height), form
-
-    def get_width(self) -> int:
-        return self._size[0]
-
-    def get_height(self) -> int:
-        return self._size[1]
-
-    def get_fps(self) -> int:
-        return 30
-
-    def get_format(self) -> Any:
-        return self._form

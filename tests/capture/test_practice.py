@@ -54,8 +54,7 @@ def test_practice_source_rests_after_movement_with_rising_times() -> None:
 
 
 def test_practice_source_next_recording_is_played_at_next_start() -> None:
-    take = Take()
-    other = Take()
+    take, other = Take(), Take()
     source = PracticeSource(take, 0.55)
     source.start_movement()
     walk = source.frames()

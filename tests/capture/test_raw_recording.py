@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import math
 import struct
-import subprocess
-import sys
 import time
 import zlib
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -32,8 +32,8 @@ from carpus.core.model.errors import (
 )
 from carpus.core.model.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
+from tests.capture.small_disk import disk_full_at
 
-ROOT = Path(__file__).parents[2]
 LENS = (0.1, -0.2, 0.001, 0.002, 0.3)
 CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, LENS, "file", D435, "inverse_brown_conrady")
 INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0, {"serial": "1206", "registered": "by the camera"})
@@ -41,17 +41,11 @@ INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0, {"serial": "1206",
 
 def frames(count: int) -> list[Frame]:
     """Times of a camera, one gap, one frame without depth."""
-    return [
-        Frame(
-            i,
-            3.25 + i / 30.0 + (0.1 if i > 2 else 0.0),
-            color_picture(i),
-            None if i == 1 else depth_picture(i),
-            1e-3,
-            3 if i == 3 else 0,
-        )
-        for i in range(count)
-    ]
+    out = []
+    for i in range(count):
+        time_s, depth = 3.25 + i / 30.0 + (0.1 if i > 2 else 0.0), None if i == 1 else depth_picture(i)
+        out.append(Frame(i, time_s, color_picture(i), depth, 1e-3, 3 if i == 3 else 0))
+    return out
 
 
 def write(path: Path, count: int = 6, *, lossless: bool = True) -> Path:
@@ -81,24 +75,8 @@ def test_raw_recording_lossless_frames_are_read_back_exactly(tmp_path: Path) -> 
             assert_same(read, written)
             assert read.dropped_before == written.dropped_before
             assert not read.color_rgb.flags.writeable
-    recording.close()
-    recording.close()
     assert recording.is_complete
-
-
-def test_raw_recording_source_info_is_read_back(tmp_path: Path) -> None:
-    info = RawRecording(write(tmp_path / "take.carpusraw")).info
-    assert info == SourceInfo(INFO.name, CAMERA, True, 6, 30.0, INFO.settings)
-
-
-def test_raw_recording_jpeg_colour_is_near_and_depth_exact(tmp_path: Path) -> None:
-    recording = RawRecording(write(tmp_path / "take.carpusraw", lossless=False))
-    for read, written in zip(recording.frames(), frames(6), strict=True):
-        error = np.abs(read.color_rgb.astype(int) - written.color_rgb.astype(int))
-        assert 0.0 < error.mean() < 2.5
-        assert (read.depth_raw is None) == (written.depth_raw is None)
-        if read.depth_raw is not None:
-            assert np.array_equal(read.depth_raw, written.depth_raw)
+    assert recording.info == SourceInfo(INFO.name, CAMERA, True, 6, 30.0, INFO.settings)
 
 
 def test_raw_recording_layout_matches_independent_reader(tmp_path: Path) -> None:
@@ -131,7 +109,7 @@ def test_raw_recording_truncated_file_keeps_complete_frames(tmp_path: Path) -> N
     path = tmp_path / "cut.carpusraw"
     whole = frames(4)
     seen = set()
-    for length in [*range(12, len(data), 997), len(data) - 1]:
+    for length in [*range(12, len(data), 1997), len(data) - 1]:
         path.write_bytes(data[:length])
         try:
             recording = RawRecording(path)
@@ -156,6 +134,10 @@ def records(data: bytes) -> list[bytes]:
     return found
 
 
+def write_records(path: Path, count: int) -> list[bytes]:
+    return records(write(path, count).read_bytes())
+
+
 def read_back(path: Path, parts: list[bytes]) -> tuple[RawRecording, list[Frame], list[CarpusFault]]:
     path.write_bytes(b"".join(parts))
     notices: list[CarpusFault] = []
@@ -170,8 +152,8 @@ LETTERS, NUMBER, COLOR_SIZE, DEPTH_SIZE = 0, 20, 24, 28
     "place", [LETTERS, NUMBER, NUMBER + 3, COLOR_SIZE, COLOR_SIZE + 3, DEPTH_SIZE, DEPTH_SIZE + 3, 500]
 )
 def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: int) -> None:
-    path = write(tmp_path / "take.carpusraw", 8)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 8)
     for number in (0, 4, 7):
         damaged = bytearray(parts[2 + number])
         damaged[place] ^= 1 << 7
@@ -188,8 +170,8 @@ def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: i
 def test_raw_recording_missing_frames_are_counted_and_notified(
     tmp_path: Path, gone: tuple[int, ...], given: int
 ) -> None:
-    path = write(tmp_path / "take.carpusraw", 8)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 8)
     _, back, notices = read_back(path, [part for at, part in enumerate(parts) if at - 2 not in gone])
     assert len(back) == given
     own = sum(frame.dropped_before for frame in frames(8) if frame.index not in gone)
@@ -198,8 +180,8 @@ def test_raw_recording_missing_frames_are_counted_and_notified(
 
 
 def test_raw_recording_duplicate_frame_is_notified(tmp_path: Path) -> None:
-    path = write(tmp_path / "take.carpusraw", 6)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 6)
     _, back, notices = read_back(path, [*parts[:5], parts[4], *parts[5:]])
     assert [frame.dropped_before for frame in back] == [frame.dropped_before for frame in frames(6)]
     assert [fault.detail for fault in notices] == ["1 of 6 frames"]
@@ -212,8 +194,8 @@ def test_raw_recording_duplicate_frame_is_notified(tmp_path: Path) -> None:
 def test_raw_recording_frame_with_impossible_value_is_skipped(
     tmp_path: Path, time_s: float, dropped: int, number: int
 ) -> None:
-    path = write(tmp_path / "take.carpusraw", 6)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 6)
     size = struct.unpack_from("<I", parts[4], COLOR_SIZE)[0]
     altered = _pack_record(b"FRAM", time_s, dropped, number, parts[4][32 : 32 + size], parts[4][32 + size :])
     _, back, notices = read_back(path, [*parts[:4], altered, *parts[5:]])
@@ -223,8 +205,8 @@ def test_raw_recording_frame_with_impossible_value_is_skipped(
 
 def test_raw_recording_search_time_is_linear_in_size(tmp_path: Path) -> None:
     """Every 32 bytes a record with a wrong checksum that would reach to the end of the file."""
-    path = write(tmp_path / "take.carpusraw", 2)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 2)
     count = 20_000
     false = [struct.pack("<4sIdIIII", b"FRAM", 1, 9.0, 0, 7, 32 * (count - at - 1), 0) for at in range(count)]
     start_s = time.process_time()
@@ -234,8 +216,8 @@ def test_raw_recording_search_time_is_linear_in_size(tmp_path: Path) -> None:
 
 
 def test_raw_recording_data_after_end_are_notified(tmp_path: Path) -> None:
-    path = write(tmp_path / "take.carpusraw", 3)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 3)
     for surplus in (b"hello", b"".join(parts)):
         recording, back, notices = read_back(path, [*parts, surplus])
         assert (recording.is_complete, len(back)) == (True, 3)
@@ -245,8 +227,8 @@ def test_raw_recording_data_after_end_are_notified(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("place", [0, 4, NUMBER])
 def test_raw_recording_damaged_end_is_ignored(tmp_path: Path, place: int) -> None:
-    path = write(tmp_path / "take.carpusraw", 3)
-    parts = records(path.read_bytes())
+    path = tmp_path / "take.carpusraw"
+    parts = write_records(path, 3)
     end = bytearray(parts[-1])
     end[place] ^= 1
     recording, back, notices = read_back(path, [*parts[:-1], bytes(end)])
@@ -263,58 +245,23 @@ def test_raw_recording_damaged_header_raises_with_frame_count(tmp_path: Path, pl
         RawRecording(path)
 
 
-def test_raw_writer_killed_loses_at_most_one_frame(tmp_path: Path) -> None:
-    program = """
-import sys
-from pathlib import Path
-from tests.capture.test_raw_recording import INFO, RawWriter, frames
-writer = RawWriter(Path(sys.argv[1]), INFO)
-for frame in frames(100_000):
-    writer.append_frame(frame)
-    print(len(writer), flush=True)
-"""
-    for attempt in range(2):
-        path = tmp_path / f"{attempt}.carpusraw"
-        process = subprocess.Popen(
-            [sys.executable, "-c", program.replace("frames(100_000)", "(f for f in frames(400))"), str(path)],
-            cwd=ROOT,
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        assert process.stdout is not None
-        for _ in range(5 + 7 * attempt):
-            process.stdout.readline()
-        process.kill()
-        said = process.communicate()[0].split()
-        recording = RawRecording(path)
-        assert not recording.is_complete
-        count = len(list(recording.frames()))
-        assert count >= (int(said[-1]) if said else 5 + 7 * attempt)
+def test_raw_writer_frames_are_in_the_file_at_once(tmp_path: Path) -> None:
+    """Whatever kills the program afterwards: nothing waits in its memory."""
+    writer = RawWriter(tmp_path / "take.carpusraw", INFO)
+    for count, frame in enumerate(frames(4), start=1):
+        writer.append_frame(frame)
+        recording = RawRecording(writer.path)
+        assert (recording.is_complete, len(list(recording.frames()))) == (False, count)
+    writer.abandon()
 
 
 def test_raw_writer_full_disk_keeps_recording(tmp_path: Path) -> None:
-    program = """
-import resource, signal, sys
-from pathlib import Path
-from carpus.core.model.errors import DiskFull
-from tests.capture.test_raw_recording import INFO, RawWriter, frames
-signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
-writer = RawWriter(Path(sys.argv[1]), INFO, lossless=True)
-try:
-    for frame in frames(100):
-        writer.append_frame(frame)
-except DiskFull:
-    print(len(writer))
-    writer.abandon()
-"""
-    path = tmp_path / "full.carpusraw"
-    done = subprocess.run(
-        [sys.executable, "-c", program, str(path)], cwd=ROOT, capture_output=True, text=True, timeout=60
-    )
-    assert done.returncode == 0, done.stderr
-    assert int(done.stdout) > 3
-    assert len(list(RawRecording(path).frames())) == int(done.stdout)
+    writer = RawWriter(tmp_path / "full.carpusraw", INFO, lossless=True)
+    with disk_full_at(100_000), writer:
+        for frame in frames(100):
+            writer.append_frame(frame)
+    assert len(writer) > 3
+    assert len(list(RawRecording(writer.path).frames())) == len(writer)
 
 
 def test_raw_writer_invalid_use_raises(tmp_path: Path) -> None:
@@ -334,12 +281,8 @@ def test_raw_writer_invalid_use_raises(tmp_path: Path) -> None:
     writer.close()
     with pytest.raises(ValueError, match="closed"):
         writer.append_frame(fine)
-
-
-def test_raw_writer_discard_removes_file(tmp_path: Path) -> None:
-    writer = RawWriter(tmp_path / "take.carpusraw", INFO)
     writer.discard()
-    assert list(tmp_path.iterdir()) == []
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_raw_recording_unreadable_file_raises(tmp_path: Path) -> None:
@@ -378,19 +321,13 @@ def test_raw_recording_impossible_camera_raises(tmp_path: Path, said: dict[str, 
         RawRecording(path)
 
 
-@pytest.mark.parametrize("what", ["color", "depth"])
-def test_raw_recording_wrong_image_size_raises(tmp_path: Path, what: str) -> None:
-    color, depth = color_picture(1), depth_picture(1)
-    if what != "depth":
-        color = np.ascontiguousarray(color[:24, :32])
-    if what != "color":
-        depth = np.ascontiguousarray(depth[:24, :32])
-    path = tmp_path / "take.carpusraw"
-    with RawWriter(path, INFO) as writer:
-        writer.append_frame(frames(1)[0])
-        writer.append_frame(Frame(1, 9.0, color, depth, 1e-3))
-    walk = RawRecording(path).frames()
-    assert_same(next(walk), next(RawRecording(path).frames()))
+@pytest.mark.parametrize("size", [{"color_rgb": color_picture(1)[:24, :32]}, {"depth_raw": depth_picture(1)[:24, :32]}])
+def test_raw_recording_wrong_image_size_raises(tmp_path: Path, size: dict[str, Any]) -> None:
+    with RawWriter(tmp_path / "take.carpusraw", INFO) as writer:
+        for frame in (frames(1)[0], replace(frames(4)[3], **size)):
+            writer.append_frame(frame)
+    walk = RawRecording(writer.path).frames()
+    next(walk)
     with pytest.raises(FrameSizeChanged):
         next(walk)
 
@@ -400,7 +337,7 @@ def test_raw_recording_any_altered_byte_gives_no_wrong_image(tmp_path: Path) -> 
     whole = {frame.timestamp_s: frame for frame in frames(3)}
     path = tmp_path / "altered.carpusraw"
     rng = np.random.default_rng(5)
-    for place in [*range(44, 500, 3), *rng.integers(0, len(data), 150).tolist()]:
+    for place in [*range(44, 500, 6), *rng.integers(0, len(data), 75).tolist()]:
         altered = bytearray(data)
         altered[place] ^= 1 << int(rng.integers(8))
         path.write_bytes(altered)

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import resource
 from dataclasses import replace
 from pathlib import Path
 
-import cv2
 import numpy as np
 import pytest
 
-from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.files.tum import TumFolder, TumWriter, to_tum_depth
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.model.camera import Camera
-from carpus.core.model.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.model.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
+from tests.capture.small_disk import disk_full_at
 
 CAMERA = Camera(52.0, 53.0, 31.0, 23.0, WIDTH, HEIGHT, origin="file")
 INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0)
@@ -32,14 +30,9 @@ def test_tum_writer_full_disk_keeps_complete_frames(tmp_path: Path) -> None:
     writer = TumWriter(path, INFO)
     writer.append_frame(one)
     writer.append_frame(two)
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
-    try:
-        with pytest.raises(DiskFull):
-            writer.append_frame(three)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        writer.abandon()
+    with disk_full_at(1000):
+        writer.append_frame(three)
+    writer.abandon()
     assert [frame.timestamp_s for frame in TumFolder(path).frames()] == pytest.approx([10.0, 10.0 + 1 / 30.0])
     listed = (path / "rgb.txt").read_text() + (path / "depth.txt").read_text()
     assert all(f"{picture.parent.name}/{picture.name}\n" in listed for picture in path.rglob("*.png"))
@@ -47,13 +40,8 @@ def test_tum_writer_full_disk_keeps_complete_frames(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("room", [10, 200])
 def test_tum_writer_disk_full_at_start_raises(tmp_path: Path, room: int) -> None:
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
-    try:
-        with pytest.raises(DiskFull):
-            TumWriter(tmp_path / "take", INFO)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    with disk_full_at(room):
+        TumWriter(tmp_path / "take", INFO)
     assert list(tmp_path.iterdir()) == [], "and can be tried again"
 
 
@@ -63,6 +51,7 @@ def test_tum_writer_images_are_read_back(tmp_path: Path) -> None:
         for frame in frames():
             writer.append_frame(frame)
         assert len(writer) == 5
+    assert "\n10.000000 depth/10.000000.png\n" in (path / "depth.txt").read_text()
     folder = TumFolder(path)
     assert folder.info.camera == CAMERA
     back = list(folder.frames())
@@ -81,17 +70,6 @@ def test_tum_writer_keeps_simulated_remark(tmp_path: Path, settings: dict[str, s
     with TumWriter(tmp_path / "take", replace(INFO, settings=settings)) as writer:
         writer.append_frame(frames()[0])
     assert is_simulated(TumFolder(tmp_path / "take").info) == bool(settings)
-
-
-def test_tum_writer_files_follow_format(tmp_path: Path) -> None:
-    with TumWriter(tmp_path / "take", INFO) as writer:
-        writer.append_frame(frames()[0])
-    lines = [line for line in (tmp_path / "take" / "depth.txt").read_text().splitlines() if not line.startswith("#")]
-    assert lines == ["10.000000 depth/10.000000.png"]
-    depth = cv2.imread(str(tmp_path / "take" / "depth" / "10.000000.png"), cv2.IMREAD_UNCHANGED)
-    assert depth is not None
-    assert depth.dtype == np.uint16
-    assert read_camera_info(tmp_path / "take" / "camera_info.yaml").camera.fx_px == 52.0
 
 
 @pytest.mark.parametrize(
@@ -119,14 +97,9 @@ def test_tum_writer_full_disk_keeps_complete_lines(tmp_path: Path, monkeypatch: 
     writer = TumWriter(path, INFO)
     writer.append_frame(frames()[0])
     before = (path / "rgb.txt").read_bytes()
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     monkeypatch.setattr("carpus.core.capture.files.tum.encode_color", lambda *_, **__: b"picture")
-    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, limits[1]))
-    try:
-        with pytest.raises(DiskFull):
-            writer.append_frame(frames()[2])
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    with disk_full_at(len(before) + 5):
+        writer.append_frame(frames()[2])
     assert (path / "rgb.txt").read_bytes() == before
     assert len(list((path / "rgb").iterdir())) == 1
     writer.append_frame(frames()[3])  # there is room again

@@ -26,7 +26,6 @@ from carpus.core.capture.devices.cameras import (
 )
 from carpus.core.capture.devices.color_lock import MAX_ROUNDS, ColorController, ColorStatistics
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.devices.realsense import check_driver
 from carpus.core.capture.doctor import check_open_camera
 from carpus.core.capture.files.realsense_recording import RealSenseRecording
 from carpus.core.capture.files.tum import TumFolder
@@ -96,18 +95,12 @@ def test_realsense_recording_tracks_like_its_folder(take: Path, folder: Path) ->
     assert [frame.status for frame in tracked] == ["tracked"] * FRAMES
 
 
-@pytest.mark.parametrize("content", [b"no database", b""])
-def test_realsense_recording_other_file_raises(tmp_path: Path, content: bytes) -> None:
-    (tmp_path / "a.db3").write_bytes(content)
-    with pytest.raises(RecordingDamaged):
-        open_recording(tmp_path / "a.db3")
-
-
-def test_realsense_recording_truncated_raises(take: Path, tmp_path: Path) -> None:
+def test_realsense_recording_other_or_truncated_file_raises(take: Path, tmp_path: Path) -> None:
     whole = take.read_bytes()
-    (tmp_path / "half.db3").write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(RecordingDamaged):
-        list(open_recording(tmp_path / "half.db3").frames())
+    for content in (b"no database", b"", whole[: len(whole) // 2]):
+        (tmp_path / "a.db3").write_bytes(content)
+        with pytest.raises(RecordingDamaged):
+            list(open_recording(tmp_path / "a.db3").frames())
 
 
 @pytest.fixture
@@ -219,9 +212,6 @@ def test_realsense_doctor_opens_camera(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_realsense_doctor_checks_driver_and_settings(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = check_driver(True, True)
-    assert found is not None
-    assert found.state == "good"
     states = {
         each.name: each.state
         for each in check_firmware_and_usb({"firmware": "5.12.1.0", "firmware_wanted": "5.16.0.1", "usb": "2.1"})
@@ -233,7 +223,6 @@ def test_realsense_doctor_checks_driver_and_settings(monkeypatch: pytest.MonkeyP
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
-    assert check_driver(True, False) is None, "no obstacle, and nothing to tick"
-    notices = check_driver(True, True)
-    assert notices is not None
-    assert (notices.state, notices.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")
+    found = realsense.KIND.check_driver(True, True)
+    assert found is not None
+    assert (found.state, found.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")

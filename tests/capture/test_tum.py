@@ -30,19 +30,13 @@ from carpus.core.model.errors import (
     TimesUnordered,
     UnitAssumed,
 )
+from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture
 
-WIDTH, HEIGHT = 64, 48
 TIMES_S = [1305031102.175304 + 0.033 * k for k in (0, 1, 2, 5, 6)]
 
 
-def color_picture(index: int) -> np.ndarray:
-    rng = np.random.default_rng(index)
-    return rng.integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
-
-
 def depth_picture(index: int) -> np.ndarray:
-    rng = np.random.default_rng(1000 + index)
-    return rng.integers(0, 65536, (HEIGHT, WIDTH), dtype=np.uint16)
+    return np.random.default_rng(1000 + index).integers(0, 65536, (HEIGHT, WIDTH), dtype=np.uint16)
 
 
 def write_recording(folder: Path, times_s: list[float] = TIMES_S, depth_late_s: float = 0.004) -> Path:
@@ -71,7 +65,10 @@ def edit(path: Path, change: Callable[[list[str]], list[str]]) -> None:
 
 
 def test_tum_folder_images_are_read_exactly(take: Path) -> None:
-    source: FrameSource = TumFolder(take)
+    for name in ("rgb.txt", "depth.txt"):  # as an editor on Windows leaves them
+        text = (take / name).read_text()
+        (take / name).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n\r\n").encode())
+    source = TumFolder(take)
     for _ in range(2):  # may be walked through again
         frames = list(source.frames())
         assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
@@ -84,20 +81,11 @@ def test_tum_folder_images_are_read_exactly(take: Path) -> None:
             assert not frame.color_rgb.flags.writeable
             assert frame.depth_raw is not None
             assert not frame.depth_raw.flags.writeable
-    source.close()
-    source.close()
-
-
-def test_tum_folder_reads_windows_and_blank_lines(take: Path) -> None:
-    for name in ("rgb.txt", "depth.txt"):
-        text = (take / name).read_text()
-        (take / name).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n\r\n").encode())
-    assert len(list(TumFolder(take).frames())) == 5
 
 
 def test_tum_folder_colour_only_is_read_without_requires_depth(take: Path) -> None:
     (take / "depth.txt").unlink()
-    source = TumFolder(take, requires_depth=False)
+    source: FrameSource = TumFolder(take, requires_depth=False)
     assert not source.info.has_depth
     assert all(frame.depth_raw is None for frame in source.frames())
 
@@ -143,6 +131,8 @@ def to_a_folder(path: Path) -> None:
 GREY, SMALL = np.zeros((HEIGHT, WIDTH), np.uint8), np.zeros((24, 32, 3), np.uint8)
 OWN_CAMERA = Camera(52.0, 52.0, 31.5, 23.5, WIDTH, HEIGHT)
 BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
+    "no folder": (lambda f: f.rename(f.with_name("elsewhere")), RecordingMissing, ""),
+    "a file": (lambda f: (f.rename(f.with_name("elsewhere")), f.touch()), RecordingUnreadable, "not a folder"),
     "no colour list": (lambda f: (f / "rgb.txt").unlink(), RecordingUnreadable, "missing"),
     "colour list is a folder": (lambda f: to_a_folder(f / "rgb.txt"), RecordingUnreadable, ""),
     "colour list is binary": (lambda f: (f / "rgb.txt").write_bytes(b"\xff\x00\xfe"), RecordingUnreadable, "text"),
@@ -192,22 +182,6 @@ def test_tum_folder_invalid_input_raises_one_fault(take: Path, case: str) -> Non
     assert caught.value.subject.startswith(str(take))
 
 
-def test_tum_folder_yields_frames_before_a_damaged_one(take: Path) -> None:
-    cut(take, "rgb", 0.5)
-    frames = TumFolder(take).frames()
-    assert [next(frames).index for _ in range(2)] == [0, 1]
-    with pytest.raises(FrameDamaged):
-        next(frames)
-
-
-def test_tum_folder_missing_or_file_raises(tmp_path: Path) -> None:
-    with pytest.raises(RecordingMissing):
-        TumFolder(tmp_path / "nowhere")
-    (tmp_path / "file").write_text("")
-    with pytest.raises(RecordingUnreadable):
-        TumFolder(tmp_path / "file")
-
-
 rising = st.lists(st.integers(0, 400), unique=True, max_size=12).map(lambda ms: np.array(sorted(ms)) * 1e-3)
 
 
@@ -237,12 +211,11 @@ def test_count_dropped_frames_uses_median_period() -> None:
     assert count_dropped_frames(np.empty(0)) == []
 
 
-def test_tum_folder_skip_damaged_notifies(take: Path) -> None:
+def test_tum_folder_skip_damaged_notifies(take: Path, notices: list[CarpusFault]) -> None:
     color, depth = (sorted((take / kind).iterdir()) for kind in ("rgb", "depth"))
     color[1].write_text("no picture")
     color[3].unlink()
     depth[2].write_bytes(b"")
-    notices: list[CarpusFault] = []
     source = TumFolder(take, skip_damaged=True, notice=notices.append)
     frames = list(source.frames())
     assert [frame.index for frame in frames] == [0, 1, 2]
@@ -255,25 +228,24 @@ def test_tum_folder_skip_damaged_notifies(take: Path) -> None:
     assert [fault.detail for fault in notices] == ["1 colour missing", "1 colour and 1 depth damaged"]
 
 
-def test_tum_folder_damaged_first_image_raises(tmp_path: Path) -> None:
-    for spoil in (lambda path: path.write_text("no picture"), Path.unlink):
-        folder = write_recording(tmp_path / f"take {spoil}")
-        spoil(sorted((folder / "rgb").iterdir())[0])
-        for leave_out in (False, True):  # and nobody is notices to go on without it
-            with pytest.raises(InitialFrameDamaged):
-                TumFolder(folder, skip_damaged=leave_out)
+def test_tum_folder_damaged_first_image_raises_always(take: Path) -> None:
+    first = min((take / "rgb").iterdir())
+    for spoil in (lambda: first.write_text("no picture"), first.unlink):
+        spoil()
+        with pytest.raises(InitialFrameDamaged):
+            TumFolder(take, skip_damaged=True)
 
 
 @pytest.mark.parametrize(
-    ("unit", "counts", "first_s"),
-    [("ms", 1e3, 120.0), ("ms", 1e3, 1726543210.0), ("µs", 1e6, 120.0), ("ns", 1e9, 1726543210.0)],
+    ("unit", "counts", "first_s"), [("ms", 1e3, 120.0), ("µs", 1e6, 120.0), ("ns", 1e9, 1726543210.0)]
 )
-def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: float, first_s: float) -> None:
+def test_tum_folder_other_time_unit_is_notified(
+    take: Path, notices: list[CarpusFault], unit: str, counts: float, first_s: float
+) -> None:
     for name in ("rgb.txt", "depth.txt"):
         lines = [line.split() for line in (take / name).read_text().splitlines() if line[0] != "#"]
         later = [(f"{(first_s + float(time_s) - TIMES_S[0]) * counts:.3f}", path) for time_s, path in lines]
         (take / name).write_text("".join(f"{time} {path}\n" for time, path in later))
-    notices: list[CarpusFault] = []
     source = TumFolder(take, notice=notices.append)
     assert [type(fault) for fault in notices] == [UnitAssumed, UnitAssumed]
     assert unit in notices[0].detail
@@ -282,35 +254,31 @@ def test_tum_folder_other_time_unit_is_notified(take: Path, unit: str, counts: f
     assert source.info.nominal_fps == pytest.approx(1.0 / 0.033, rel=0.01)
 
 
-def test_tum_folder_duplicate_time_is_skipped_and_notified(take: Path) -> None:
+def test_tum_folder_duplicate_time_is_skipped_and_notified(take: Path, notices: list[CarpusFault]) -> None:
     for name in ("rgb.txt", "depth.txt"):
         edit(take / name, lambda lines: [*lines[:-1], lines[-2], lines[-1], lines[-1]])
-    notices: list[CarpusFault] = []
     frames = list(TumFolder(take, notice=notices.append).frames())
     assert [frame.timestamp_s for frame in frames] == [round(time_s, 6) for time_s in TIMES_S]
-    assert [(type(fault), fault.detail) for fault in notices] == [
-        (RepeatedTimesExcluded, "2"),
-        (RepeatedTimesExcluded, "2"),
-    ]
+    assert [(type(fault), fault.detail) for fault in notices] == 2 * [(RepeatedTimesExcluded, "2")]
 
 
 @pytest.mark.parametrize(("counts_per_m", "said"), [(5000, False), (1000, True)])
-def test_tum_folder_millimetre_depth_is_notified(take: Path, counts_per_m: int, said: bool) -> None:
+def test_tum_folder_millimetre_depth_is_notified(
+    take: Path, notices: list[CarpusFault], counts_per_m: int, said: bool
+) -> None:
     for path in (take / "depth").iterdir():
         picture = np.full((HEIGHT, WIDTH), round(0.72 * counts_per_m), np.uint16)
         picture[:10] = 0
         cv2.imwrite(str(path), picture)
-    notices: list[CarpusFault] = []
     frame = next(TumFolder(take, notice=notices.append).frames())
     assert frame.depth_raw is not None
     assert frame.depth_raw[20, 20] * frame.depth_unit_m == pytest.approx(0.72)
     assert [type(fault) for fault in notices] == [UnitAssumed] * said
 
 
-@pytest.mark.parametrize("unit_m", ["0.001", "1e-3", "0.0002"])
-def test_tum_folder_uses_depth_unit_of_camera_file(take: Path, unit_m: str) -> None:
+@pytest.mark.parametrize("unit_m", ["1e-3", "0.0002"])
+def test_tum_folder_uses_depth_unit_of_camera_file(take: Path, notices: list[CarpusFault], unit_m: str) -> None:
     write_camera_info(take / "camera_info.yaml", OWN_CAMERA)
     edit(take / "camera_info.yaml", lambda lines: [*lines, f"depth_unit_m: {unit_m}"])
-    notices: list[CarpusFault] = []
     assert next(TumFolder(take, notice=notices.append).frames()).depth_unit_m == float(unit_m)
     assert not notices

@@ -381,13 +381,12 @@ def find_sensor(settings: Mapping[str, str], color_focal_px: float = math.nan) -
     return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
-check_driver = partial(check_package, phrase("Orbbec driver"), PACKAGE, import_sdk)
 KIND = CameraKind(
     title="Orbbec Femto, Gemini or Astra 2",
     models=MODELS,
     serve=serve,
     find_sensor=find_sensor,
-    check_driver=check_driver,
+    check_driver=partial(check_package, phrase("Orbbec driver"), PACKAGE, import_sdk),
     needed_mbit=5000,
     port_advice=USB_3,
     check_settings=check_firmware_and_usb,
