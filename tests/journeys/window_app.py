@@ -17,6 +17,7 @@ from carpus.app.desktop.appearance import create_application
 from carpus.app.desktop.source_factory import RECENT_FRAMES
 from carpus.app.desktop.window import Desktop, close_on_signals
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.ui.screens.live import recording as live_recording
 from tests.journeys.takes import SPEED, build_take, read_take_clicks
 
 LOOK_MS = 50
@@ -78,6 +79,7 @@ class Reporter:
 def main() -> int:
     """Open the window and stay until it is closed."""
     take, data = map(Path, sys.argv[1:3])
+    live_recording.MIN_RECORDING_S = 0.0  # an end within the first seconds would ask
     recording = RecordingSettings(folder=str(data), keep_pictures=False)
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=recording)
     qt = create_application(["carpus"])

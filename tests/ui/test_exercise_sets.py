@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -35,6 +36,13 @@ PARTS = (SetPart(get_exercise("WRIST_FE"), 2, 0, 20), SetPart(get_exercise("FREE
 OWN = ExerciseSet("own", "Short", "wrist6", PARTS)
 
 
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[DataFolder]:
+    made = DataFolder(tmp_path)
+    yield made
+    made.close()
+
+
 def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tmp_path: Path) -> None:
     with Store(tmp_path) as store:
         assert read_sets(store) == DEFAULT_SETS
@@ -52,8 +60,7 @@ def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tm
         assert read_sets(store) == (longer,)
 
 
-def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Path) -> None:
-    library = DataFolder(tmp_path)
+def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(library: DataFolder) -> None:
     patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up(target_deg=50.0), patient_id=patient, pseudonym="Heron 3")
     save_setup(library.store, one)
@@ -66,11 +73,9 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
     assert math.isnan(start_set(OWN, replace(one, side="left"), goals).target_positive_deg)
     library.store.apply([delete_row(PATIENT, patient)])
     assert patients.read_goals(library.store, patient) == {}
-    library.close()
 
 
-def test_goal_of_supination_is_read_from_thumb_up_and_one_of_older_version_is_converted(tmp_path: Path) -> None:
-    library = DataFolder(tmp_path)
+def test_goal_of_supination_is_read_from_thumb_up_and_one_of_older_version_is_converted(library: DataFolder) -> None:
     patient = library.patients.add(Patient("Heron 3", "left"))
     one = replace(set_up("FOREARM_PS", -30.0), patient_id=patient, pseudonym="Heron 3")
     save_setup(library.store, one)
@@ -80,7 +85,6 @@ def test_goal_of_supination_is_read_from_thumb_up_and_one_of_older_version_is_co
     again = read_last_setup(library.store, patient)
     assert again is not None
     assert again.target_positive_deg == -30.0
-    library.close()
 
 
 def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
@@ -135,8 +139,7 @@ def test_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> N
     patient.close()
 
 
-def test_next_session_begins_with_set_of_last_one(tmp_path: Path) -> None:
-    library = DataFolder(tmp_path)
+def test_next_session_begins_with_set_of_last_one(library: DataFolder) -> None:
     patient = library.patients.add(Patient("Heron 3", "left"))
     save_sets(library.store, (OWN,), DEFAULT_SETS)
     first = start_set(OWN, replace(set_up(), patient_id=patient, pseudonym="Heron 3", side="left", for_child=True), {})
@@ -149,4 +152,3 @@ def test_next_session_begins_with_set_of_last_one(tmp_path: Path) -> None:
     assert again.set_run.run_id != first.set_run.run_id
     save_sets(library.store, DEFAULT_SETS, (OWN,))
     assert read_last_setup(library.store, patient).set_run is None  # type: ignore[union-attr]
-    library.close()

@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.hand.protocols import HAND21, joint_angle_names
+from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS, joint_angle_names
 from carpus.core.model.types import TrackedFrame, TrackStatus
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import compute_session_results
@@ -148,6 +148,14 @@ def test_status_light_names_the_occluded_marker_and_remedy(hidden: tuple[str, ..
     lamp = hand_light(frame, {name: "hidden" if name in hidden else "seen" for name in MARKERS})
     assert (lamp.state, lamp.remedy) == (state, remedy)
     assert lamp.rank == ("warn" if hidden else "good")
+
+
+def test_status_light_of_the_wrist_names_marker_forearm_and_lost_hand() -> None:
+    frame, seen = FakeFeed().frames[10], dict.fromkeys(PALM_MARKERS, "seen")
+    assert hand_light(frame, seen | {"CMC1": "hidden"}).state == "Thumb CMC occluded"
+    assert hand_light(frame, seen, has_forearm_moved=True).state == "Forearm moved"
+    assert hand_light(frame, seen).remedy == "All 6 markers visible"
+    assert hand_light(replace(frame, status=TrackStatus.LOST), seen).rank == "bad"
 
 
 @pytest.mark.parametrize("exercise", ["FIST_COMPOSITE", "FIST_HOOK"])

@@ -113,17 +113,6 @@ def marking(qtbot: QtBot, screen: MarkersScreen) -> Marking:
 TILT = CalibrationFinding("tilt", (), 19.0, 15.0, "deg")
 
 
-def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(marking: Marking) -> None:
-    calibrator = marking.begin()
-    judged = marking.judge_all()
-    np.testing.assert_allclose(judged.pixel, calibrator.disc_px)
-    assert judged.protocol.markers == WRIST6.markers
-    assert not marking.screen.guidance.straight_fingers.isVisible(), "a wrist is not asked for its fingers"
-    marking.enter()
-    assert marking.started
-    assert calibrator.begun is not None
-
-
 def test_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None:
     calibrator, picture = marking.begin(), marking.screen.picture
     marking.press(Qt.Key.Key_Left)
@@ -134,8 +123,10 @@ def test_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None:
         np.testing.assert_allclose(picture.cursor_px, cursor + np.round(pixel - cursor))
         marking.press(Qt.Key.Key_Space)
     np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
+    assert not marking.screen.guidance.straight_fingers.isVisible(), "a wrist is not asked for its fingers"
     marking.enter()
     assert marking.started
+    assert calibrator.begun is not None
 
 
 def test_markers_pending_result_is_dropped_for_new_frame(
@@ -162,37 +153,41 @@ def test_markers_pending_result_is_dropped_for_new_frame(
     assert calibrator.begun is None
 
 
-def test_swapped_markers_are_exchanged_by_enter_and_judged_again(marking: Marking) -> None:
-    calibrator = marking.begin(CalibrationFinding("swapped", ("MCP2", "MCP3")))
+@pytest.mark.parametrize(
+    ("finding", "rank", "primary", "second", "missing"),
+    [
+        (CalibrationFinding("swapped", ("MCP2", "MCP3")), "bad", "Swap the two", "Correct labels", ()),
+        (CalibrationFinding("shifted", WRIST6.markers), "bad", "Click the marker again", "", WRIST6.markers),
+        (CalibrationFinding("no_depth", ("CMC1",), blocks=True), "bad", "Click the marker again", "", ("CMC1",)),
+        (CalibrationFinding("misnamed", ("MCP4",)), "bad", "Correct labels", "Start anyway (&uncertain)", ()),
+        (TILT, "good", "Correct labels", "Start anyway (&uncertain)", ()),
+    ],
+)
+def test_markers_finding_offers_its_remedy_and_enter_never_starts(
+    marking: Marking, finding: CalibrationFinding, rank: str, primary: str, second: str, missing: tuple[str, ...]
+) -> None:
+    calibrator, screen = marking.begin(finding), marking.screen
     marking.judge_all()
-    assert marking.screen.guidance.verdict_panel.lines[0][0].state == "bad"
-    assert marking.screen.picture.wrong_labels == ("MCP2", "MCP3")
-    calibrator.findings = ()
+    assert screen.guidance.verdict_panel.lines[0][0].state == rank
+    assert screen.picture.wrong_labels == finding.markers
+    assert screen.primary_button.text() == primary
+    assert (screen.second_button.text() if screen.second_button.isVisible() else "") == second
+    assert screen.start_anyway_button.isVisible() is (finding.kind == "swapped")
+    assert (screen.guidance.step_label.text() == "Cannot start yet") is bool(missing)
+    if missing:
+        screen.start_anyway_button.click()
+    calibrator.findings = () if finding.kind == "swapped" else (finding,)
     marking.enter()
-    np.testing.assert_allclose(marking.judge().pixel[2:4], calibrator.disc_px[[3, 2]])
-    assert calibrator.begun is None
-
-
-def test_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, marking: Marking) -> None:
-    calibrator = marking.begin(TILT)
-    marking.judge_all()
-    assert marking.screen.second_button.isVisible()
-    for _ in range(3):
-        marking.enter()
     assert not marking.started
-    assert marking.clicking.is_complete, "Enter wipes no name"
-    qtbot.mouseClick(marking.screen.second_button, Qt.MouseButton.LeftButton)
-    assert marking.started
-    assert calibrator.begun is not None
-
-
-def test_markers_blocking_finding_prevents_start(qtbot: QtBot, marking: Marking) -> None:
-    calibrator = marking.begin(CalibrationFinding("no_depth", ("CMC1",), blocks=True))
-    marking.judge_all()
-    assert not marking.screen.second_button.isVisible()
-    qtbot.mouseClick(marking.screen.primary_button, Qt.MouseButton.LeftButton)
-    assert calibrator.begun is None
-    assert marking.clicking.missing == ("CMC1",)
+    assert marking.clicking.missing == missing
+    if finding.kind == "swapped":
+        np.testing.assert_allclose(marking.judge().pixel[2:4], calibrator.disc_px[[3, 2]])
+        assert calibrator.begun is None
+    elif second:
+        assert screen.picture.hasFocus(), "labels can be dragged"
+        screen.second_button.click()
+        assert marking.started
+        assert calibrator.begun is not None
 
 
 def test_given_start_angle_reaches_calibration_with_its_sign(qtbot: QtBot, marking: Marking) -> None:
@@ -203,7 +198,7 @@ def test_given_start_angle_reaches_calibration_with_its_sign(qtbot: QtBot, marki
     value.setValue(20)
     screen.angle_dialog.angles_entered.emit(screen.angle_dialog.angles_rad())
     screen.angle_dialog.close_dialog()
-    marking.judge_all()
+    np.testing.assert_allclose(marking.judge_all().pixel, calibrator.disc_px)  # clicked a little beside
     np.testing.assert_allclose(calibrator.angles[-1], [0.0, math.radians(-20.0), 0.0])
     assert "Extension 20°" in screen.start_angle_button.text()
 
@@ -292,19 +287,6 @@ def test_markers_fingers_are_straight_unless_chosen(qtbot: QtBot, marking: Marki
     assert marking.started
 
 
-def test_markers_shifted_labels_must_be_clicked_again(marking: Marking) -> None:
-    marking.begin(CalibrationFinding("shifted", WRIST6.markers))
-    marking.judge_all()
-    screen = marking.screen
-    assert screen.guidance.verdict_panel.lines[0][0].state == "bad"
-    assert screen.guidance.step_label.text() == "Cannot start yet"
-    assert not screen.second_button.isVisible()
-    screen.start_anyway()
-    marking.enter()
-    assert not marking.started
-    assert marking.clicking.missing == WRIST6.markers
-
-
 def test_markers_undo_reverses_any_order() -> None:
     clicking = LabelState(WRIST6, "right")
     for name in ("MCP4", "WRIST", "MCP2"):
@@ -386,7 +368,7 @@ def test_markers_click_beside_all_blobs_is_reported(qtbot: QtBot, marking: Marki
     assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
 
 
-def test_markers_enter_retakes_a_bad_frame_only(marking: Marking) -> None:
+def test_markers_enter_retakes_a_bad_live_frame(marking: Marking) -> None:
     calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()
@@ -394,11 +376,7 @@ def test_markers_enter_retakes_a_bad_frame_only(marking: Marking) -> None:
     assert screen.click_again_button.isVisible()
     marking.enter()
     assert screen.labels is None
-    calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
+    calibrator.findings = (TILT, CalibrationFinding("misnamed", ("MCP4",)))
     marking.press(Qt.Key.Key_Space)
     marking.judge_all()
-    assert screen.primary_button.text() == "Correct labels"
-    assert screen.picture.wrong_labels == ("MCP4",)
-    marking.enter()
-    assert screen.picture.hasFocus()
-    assert screen.labels.is_complete
+    assert screen.primary_button.text() == "Correct labels", "wrong labels come before a bad image"

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from carpus.ui.report.progress_page import build_progress_report
 from carpus.ui.report.session_page import build_session_report
-from carpus.ui.screens.live.status_light import TrackingLag, lag_light
-from tests.ui.fakes import FakeFeed, FakeSessions
+from tests.ui.fakes import FakeSessions
 
 
 def test_session_number_counts_the_same_hand() -> None:
@@ -23,12 +20,3 @@ def test_progress_report_shows_the_other_hand() -> None:
     assert build_progress_report(right).progress.other_hand is None
     assert build_progress_report(right, other_hand=left).progress.other_hand is left
     assert build_progress_report(history).progress.other_hand is left
-
-
-def test_lag_light_counts_missing_frames() -> None:
-    counters, behind = FakeFeed().counters(), TrackingLag()
-    behind.lag_s = 4.0
-    behind.count_missing(replace(counters, missing=380))
-    assert "every frame is saved" in lag_light(behind, recording=True).remedy
-    behind.count_missing(replace(counters, missing=383))
-    assert lag_light(behind, recording=True).remedy == "3 frames are missing: close other programs"

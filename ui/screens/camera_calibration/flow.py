@@ -14,7 +14,7 @@ from carpus.ui.report.pdf import write_sheets
 from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
 from carpus.ui.shell.camera_session import CameraFlowBase, FrameProcessor
 from carpus.ui.shell.flow import ScreenContext
-from carpus.ui.words.camera_calibration import BoardChoice, BoardProgress, BoardResult
+from carpus.ui.words.camera_calibration import BoardProgress, BoardResult
 from carpus.ui.words.camera_check import camera_words
 
 
@@ -27,7 +27,6 @@ class CameraCalibrationFlow(CameraFlowBase):
     def __init__(self, context: ScreenContext) -> None:
         screen = CameraCalibrationScreen(context.theme)
         super().__init__(context, screen, screen.name_dialog)
-        self._choice = BoardChoice()
         self._session: LiveSession | None = None
         self._gathering: ViewCollector | None = None
         self._newest_progress: Mailbox[BoardProgress] = Mailbox()
@@ -37,7 +36,7 @@ class CameraCalibrationFlow(CameraFlowBase):
         self.camera_session.camera_lost.connect(screen.capture_view.show_no_frames)
         camera = context.camera
         camera.notify_availability(lambda: screen.setup_view.set_camera_connected(camera.is_connected))
-        screen.setup_view.start_button.clicked.connect(self._start_with_choice)
+        screen.setup_view.start_button.clicked.connect(self.start)
         screen.setup_view.print_button.clicked.connect(self._print_board)
         screen.capture_view.primary_button.clicked.connect(self._calibrate)
         screen.capture_view.stop_button.clicked.connect(self.return_to_start)
@@ -79,18 +78,14 @@ class CameraCalibrationFlow(CameraFlowBase):
         self.save_printout(name, title, lambda part: write_sheets(part, [sheet], "Carpus camera board"))
 
     # --- showing ------------------------------------------------------------------------------------------
-    def _start_with_choice(self) -> None:
-        self._choice = self.screen.setup_view.choice
-        self.start()
-
     def start(self) -> None:
         self.on_leave()
-        choice, known, cameras = self._choice, self._identified, self.context.cameras
+        board, known, cameras = self.screen.setup_view.choice.board, self._identified, self.context.cameras
         newest = self._newest_progress = Mailbox[BoardProgress]()
         self.screen.show_capture()
 
         def make_processor(session: LiveSession) -> FrameProcessor:
-            gathering = self._gathering = ViewCollector(session.info.camera, choice.board)
+            gathering = self._gathering = ViewCollector(session.info.camera, board)
 
             def process(frame: Frame) -> None:
                 seen = gathering.process_frame(frame) if known.is_set() else None

@@ -34,6 +34,9 @@ from carpus.ui.words import terms
 from carpus.ui.words.agreement import angle_name
 from carpus.ui.words.terms import marker_title
 
+SHOWING_SESSION = ("review", "correct")
+"""Screens on which an accepted result takes the place of the old one."""
+
 
 class CorrectionFlow(Flow):
     """Controller of corrections.
@@ -65,8 +68,8 @@ class CorrectionFlow(Flow):
         self.screen.fault_raised.connect(context.messages.show_fault)
         self.screen.back_requested.connect(context.navigator.navigate_back)
         self.dialog.stop_button.clicked.connect(self.stop)
-        self.dialog.keep_button.clicked.connect(self._discard_result)
-        self.dialog.use_button.clicked.connect(self._accept_result)
+        self.dialog.keep_button.clicked.connect(lambda: self._decide(accept=False))
+        self.dialog.use_button.clicked.connect(lambda: self._decide(accept=True))
 
     @property
     def is_busy(self) -> bool:
@@ -188,50 +191,35 @@ class CorrectionFlow(Flow):
 
         self._background.run(read, show_results, on_failed, self)
 
-    def _close_decision(self) -> PendingResult | None:
-        """Return the result that was decided on and take it off the waiting ones."""
+    def _decide(self, *, accept: bool) -> None:
+        """Accept or discard the result that is shown, and take it off the waiting ones."""
         one, self._shown_result = self._shown_result, None
         self.dialog.close_dialog()
         if one in self.pending:
             self.pending.remove(one)
             self._emit_progress()
-        return one
-
-    def _discard_result(self) -> None:
-        one = self._close_decision()
         if one is None:
             return
-        # A look from before may still come, and tell of it once more: the last look is the true one.
-        self._background.run(
-            lambda: self._corrections.discard(one.path),
-            lambda _: self.refresh_pending(),
-            self._on_decision_failed,
-            self,
-        )
+        before, path = one.session_id, one.path
 
-    def _accept_result(self) -> None:
-        one = self._close_decision()
-        if one is None:
-            return
-        self._background.run(
-            lambda: self._corrections.accept(one.session_id, one.path),
-            lambda new: self._on_accepted(one.session_id, str(new)),
-            self._on_decision_failed,
-            self,
-        )
+        def work() -> str:
+            if accept:
+                return str(self._corrections.accept(before, path))
+            self._corrections.discard(path)
+            return ""
 
-    def _on_decision_failed(self, fault: Exception) -> None:
-        self.context.messages.show_fault(fault)
-        self.refresh_pending()
+        def on_done(new: str) -> None:
+            # A look from before may still come, and tell of it once more: the last look is the true one.
+            self.refresh_pending()
+            navigator = self.context.navigator
+            if new and self.context.current.session_id == before and navigator.underlying_screen in SHOWING_SESSION:
+                navigator.open_under_overlay("review", new)
 
-    def _on_accepted(self, before: str, new: str) -> None:
-        """Show the accepted result where the old one was on the screen."""
-        self.refresh_pending()
-        if self.context.current.session_id == before and self.context.navigator.underlying_screen in (
-            "review",
-            "correct",
-        ):
-            self.context.navigator.open_under_overlay("review", new)
+        def on_failed(fault: Exception) -> None:
+            self.context.messages.show_fault(fault)
+            self.refresh_pending()
+
+        self._background.run(work, on_done, on_failed, self)
 
 
 def describe_session(header: SessionHeader) -> str:

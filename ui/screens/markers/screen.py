@@ -116,7 +116,7 @@ class MarkersScreen(FittedWidget):
         picture.label_grabbed.connect(self._grab)
         self.primary_button.clicked.connect(self._on_primary)
         self.second_button.clicked.connect(self._on_second)
-        self.start_anyway_button.clicked.connect(self.start_anyway)
+        self.start_anyway_button.clicked.connect(naming.begin_tracking)
         self.start_angle_button.clicked.connect(lambda: self.angle_dialog.open_angles(naming.start_angles_rad))
         self.angle_dialog.angles_entered.connect(self._set_start_angles)
         self.new_frame_button.clicked.connect(self.preview)
@@ -277,11 +277,6 @@ class MarkersScreen(FittedWidget):
         """Move the keyboard to the frame, where labels can be dragged."""
         self.hint.setText(self.tr("Drag a label to its marker. Two labels can be swapped."))
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
-
-    def start_anyway(self) -> None:
-        """Start although labels look swapped."""
-        if self.labelling.outcome is not None and self.labelling.outcome.verdict.can_start:
-            self.labelling.begin_tracking()
 
     # --- showing ------------------------------------------------------------------------------------------
     def _refresh(self) -> None:

@@ -63,6 +63,27 @@ class PatientView(QWidget):
         return patient_words(self._set_up.exercise.id if self._set_up else "", self.scene, self.audience)
 
     # --- painting -----------------------------------------------------------------------------------------
+    def _write(
+        self,
+        painter: QPainter,
+        box: QRectF,
+        words: str,
+        size: float,
+        token: str,
+        aligned: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignLeft,
+    ) -> None:
+        """Draw a text, smaller only if it would not fit into two lines."""
+        flags, size = int(aligned | Qt.TextFlag.TextWordWrap), size * self._theme.text_scale
+        while True:
+            face = font(size, SEMIBOLD)
+            needed = QFontMetricsF(face).boundingRect(QRectF(0, 0, box.width(), 10_000), flags, words)
+            if size <= MIN_TEXT_PX or (needed.height() <= box.height() and needed.width() <= box.width()):
+                break
+            size -= 4.0
+        painter.setFont(face)
+        painter.setPen(self._theme.color(token))
+        painter.drawText(box, flags, words)
+
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -81,25 +102,20 @@ class PatientView(QWidget):
             paint_icon(painter, "volume-2", QRectF(width - MARGIN - 36, 984, 44, 44), self._theme.color("text2"))
 
     def _paint_words(self, painter: QPainter, width: float, shown: bool) -> None:
-        words, scene, color = self.words(), self.scene, self._theme.color
+        words, scene = self.words(), self.scene
         if not shown:
             box = QRectF(MARGIN, 300, width - 2 * MARGIN, 220)
-            _draw_fitted_text(painter, box, words.state, STATE_PX * self._theme.text_scale, color("text"))
-            _draw_fitted_text(
-                painter, box.translated(0, 210), words.task, TASK_PX * self._theme.text_scale, color("text2")
-            )
+            self._write(painter, box, words.state, STATE_PX, "text")
+            self._write(painter, box.translated(0, 210), words.task, TASK_PX, "text2")
             if scene.asked and scene.phase in ("done", "rest"):
                 self._paint_marks(painter, QPointF(MARGIN, 800), 0.45 * width)
             if scene.phase == "rest":
                 self._paint_rest(painter, width)
             return
-        task_width = 0.5 * width
-        _draw_fitted_text(
-            painter, QRectF(MARGIN, 72, task_width, 170), words.task, TASK_PX * self._theme.text_scale, color("text2")
-        )
+        self._write(painter, QRectF(MARGIN, 72, 0.5 * width, 170), words.task, TASK_PX, "text2")
         token = "good" if scene.phase == "there" else "text"
-        now = QRectF(MARGIN, 840, width * 0.5, 190)
-        _draw_fitted_text(painter, now, words.state, STATE_PX * self._theme.text_scale, color(token), bottom=True)
+        bottom = Qt.AlignmentFlag.AlignBottom
+        self._write(painter, QRectF(MARGIN, 840, width * 0.5, 190), words.state, STATE_PX, token, bottom)
         if scene.asked:
             self._paint_marks(painter, QPointF(MARGIN, 760), 0.4 * width)
 
@@ -112,18 +128,11 @@ class PatientView(QWidget):
             painter.setPen(QPen(color(token), 44, Qt.PenStyle.SolidLine, Qt.PenCapStyle.FlatCap))
             painter.drawArc(ring, 90 * 16, round(-360 * 16 * share))
         box = QRectF(0.73 * width - 0.24 * width, 740, 0.48 * width, 100)
-        _draw_fitted_text(
-            painter,
-            box,
-            remaining_rest_words(scene.rest_s),
-            TASK_PX * self._theme.text_scale,
-            color("text"),
-            middle=True,
-        )
+        middle = Qt.AlignmentFlag.AlignHCenter
+        self._write(painter, box, remaining_rest_words(scene.rest_s), TASK_PX, "text", middle)
         if self._set_up is not None:
             words = next_task_words(self._set_up.exercise.id, self.audience)
-            size = SMALL_PX * self._theme.text_scale
-            _draw_fitted_text(painter, box.translated(0, 110), words, size, color("text2"), middle=True)
+            self._write(painter, box.translated(0, 110), words, SMALL_PX, "text2", middle)
 
     def _paint_marks(self, painter: QPainter, at: QPointF, room: float) -> None:
         """Paint repetitions as checks or flowers; many as a number."""
@@ -131,7 +140,7 @@ class PatientView(QWidget):
         size = 52.0 if self.audience == "child" else 44.0
         if scene.asked > MAX_MARKS:
             words = self.tr("{done} of {asked}").format(done=scene.done, asked=scene.asked)
-            _draw_fitted_text(painter, QRectF(at.x(), at.y(), room, 70), words, SMALL_PX, color("text2"))
+            self._write(painter, QRectF(at.x(), at.y(), room, 70), words, SMALL_PX, "text2")
             return
         in_row = max(1, min(scene.asked, int(room // (size + 14))))
         rows = -(-scene.asked // in_row)
@@ -269,33 +278,6 @@ def _placement(exercise: Exercise, width: float, *, mirrored: bool) -> QTransfor
     to.translate(at.x(), at.y())
     to.scale(-scale if mirrored else scale, scale)
     return to
-
-
-def _draw_fitted_text(
-    painter: QPainter,
-    box: QRectF,
-    words: str,
-    size: float,
-    color: QColor,
-    *,
-    bottom: bool = False,
-    middle: bool = False,
-) -> None:
-    """Draw a text, smaller only if it would not fit into two lines."""
-    if not words:
-        return
-    across = Qt.AlignmentFlag.AlignHCenter if middle else Qt.AlignmentFlag.AlignLeft
-    flags = int(across | Qt.TextFlag.TextWordWrap)
-    flags |= int(Qt.AlignmentFlag.AlignBottom if bottom else Qt.AlignmentFlag.AlignTop)
-    while True:
-        face = font(size, SEMIBOLD)
-        needed = QFontMetricsF(face).boundingRect(QRectF(0, 0, box.width(), 10_000), flags, words)
-        if size <= MIN_TEXT_PX or (needed.height() <= box.height() and needed.width() <= box.width()):
-            break
-        size -= 4.0
-    painter.setFont(face)
-    painter.setPen(color)
-    painter.drawText(box, flags, words)
 
 
 PETALS = 7

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import Qt
@@ -20,7 +19,6 @@ from carpus.core.records.session_setup import (
     practice_setup,
 )
 from carpus.core.records.values import read_or_default
-from carpus.core.results.session_results import SessionResults
 from carpus.ui.screens.setup.camera import CameraScreen
 from carpus.ui.screens.setup.exercise import ExerciseScreen
 from carpus.ui.screens.setup.set_dialog import SetDialog
@@ -62,12 +60,12 @@ class ExerciseFlow(Flow):
             context.mb_per_minute, free / (1e6 * context.mb_per_minute),
             read_or_default(lambda: read_goals(library.store, patient_id), {}),
         )  # fmt: skip
-
-        def show(history: Sequence[SessionResults]) -> None:
-            self.screen.show_history(patient_id, history)
-
         # What cannot be read proposes nothing; opening it tells why.
-        self.run(lambda: library.history(patient_id), show, lambda _: None)
+        self.run(
+            lambda: library.history(patient_id),
+            lambda history: self.screen.show_history(patient_id, history),
+            lambda _: None,
+        )
         context.navigator.switch_screen("exercise")
 
     def on_server_reconnected(self) -> None:
