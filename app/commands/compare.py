@@ -112,7 +112,6 @@ def run_compare(arguments: argparse.Namespace) -> int:
         format_comparison,
         format_limit_verdicts,
         to_json,
-        trace_comparison,
         write_comparison,
     )
 
@@ -131,7 +130,7 @@ def run_compare(arguments: argparse.Namespace) -> int:
         choices=read_choices(arguments.session),
     )
     if arguments.json:
-        print_json(to_json(result.comparison, trace_comparison(result), result.reference.name))
+        print_json(to_json(result))
     else:
         verdicts = format_limit_verdicts(result.comparison.pairs, arguments.limit)
         print("\n".join([*format_comparison(result.comparison), *verdicts]))

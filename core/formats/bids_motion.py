@@ -164,12 +164,15 @@ def list_channels(session: Session) -> list[BidsChannel]:
         BidsChannel("status", MISSING, "MISC", MISSING, MISSING, MISSING, "0 tracked, 1 predicted, 2 lost, 3 doubtful",
                 np.asarray(session.status, dtype=np.float64), 0),
     ]  # fmt: skip
-    for m, marker in enumerate(header.protocol.markers):
+
+    def add_vector(kind: str, point: str, units: str, frame: str, description: str, values: FloatArray) -> None:
         for axis, letter in enumerate("xyz"):
-            out.append(
-                BidsChannel(f"{marker}_POS_{letter}", letter, "POS", marker, "m", "camera",
-                        "centre of the paper disc", session.markers.position_cam_m[:, m, axis])
-            )  # fmt: skip
+            name = f"{point}_{kind}_{letter}"
+            out.append(BidsChannel(name, letter, kind, point, units, frame, description, values[:, axis]))
+
+    for m, marker in enumerate(header.protocol.markers):
+        place_m = session.markers.position_cam_m[:, m]
+        add_vector("POS", marker, "m", "camera", "centre of the paper disc", place_m)
         seen = is_measured(session)[:, m].astype(np.float64)
         out.append(
             BidsChannel(f"{marker}_seen", MISSING, "MISC", marker, MISSING, MISSING, "1 seen in this picture, else 0",
@@ -184,16 +187,8 @@ def list_channels(session: Session) -> list[BidsChannel]:
             BidsChannel(f"HAND_ORNT_quat_{letter}", f"quat_{letter}", "ORNT", "HAND", MISSING, "w0",
                     "rotation of W2 in W0", turn[:, k], 8)
         )  # fmt: skip
-    for axis, letter in enumerate("xyz"):
-        out.append(
-            BidsChannel(f"HAND_VEL_{letter}", letter, "VEL", "HAND", "m/s", "w0", "velocity of the WRIST disc",
-                    motion.velocity_m_s[:, axis])
-        )  # fmt: skip
-    for axis, letter in enumerate("xyz"):
-        out.append(
-            BidsChannel(f"HAND_GYRO_{letter}", letter, "GYRO", "HAND", "rad/s", "w2", "angular velocity of the hand",
-                    motion.angular_velocity_rad_s[:, axis])
-        )  # fmt: skip
+    add_vector("VEL", "HAND", "m/s", "w0", "velocity of the WRIST disc", motion.velocity_m_s)
+    add_vector("GYRO", "HAND", "rad/s", "w2", "angular velocity of the hand", motion.angular_velocity_rad_s)
     names = [f"wrist_{name}" for name in WRIST_ANGLES] + list(header.joint_names)
     angles = np.degrees(np.column_stack((motion.angles_rad, motion.joint_angles_rad)))
     sds = np.degrees(np.column_stack((motion.angles_sd_rad, motion.joint_angles_sd_rad)))

@@ -203,7 +203,7 @@ def _wrist_table(session: Session) -> Table:
             for values, suffix in ((motion.angles_rad, "deg"), (motion.angles_sd_rad, "sd_deg")):
                 for k, name in enumerate(WRIST_ANGLES):
                     out[f"{estimate}_{name}_{suffix}"] = np.degrees(values[:, k])
-            out |= {f"{estimate}_{column.name}": column.values for column in motion_columns(session, motion)}
+            out |= {f"{estimate}_{name}": values for name, values in motion_columns(session, motion).items()}
     return out
 
 

@@ -34,10 +34,7 @@ class Format(NamedTuple):
 
 
 FORMATS = {
-    "csv": Format(
-        "csv_tables",
-        "tables of angles, joints, markers, events and measures",
-    ),
+    "csv": Format("csv_tables", "tables of angles, joints, markers, events and measures"),
     "json": Format("json_measures", "measures with provenance"),
     "c3d": Format("c3d", "markers for motion capture programs"),
     "trc": Format("trc", "markers for OpenSim"),

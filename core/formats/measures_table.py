@@ -22,9 +22,9 @@ from carpus.core.formats.output_files import (
 )
 from carpus.core.model.errors import ExtraMissing, OutputExists
 from carpus.core.model.hand.protocols import WRIST_ANGLES
-from carpus.core.results.measure import is_total_active_motion
+from carpus.core.results.measure import is_total_active_motion, root_mean_square
 from carpus.core.results.norms import grade_share
-from carpus.core.results.session_results import SessionResults
+from carpus.core.results.session_results import SessionResults, full_strokes
 from carpus.core.results.task_measures import QUANTITIES
 
 
@@ -95,10 +95,14 @@ def build_measure_rows(results: SessionResults, session: str) -> tuple[MeasureRo
         positive = QUANTITIES[name].positive if one.group == "task" else _POSITIVE.get(name, "more")
         if name in _JOINT_MEASURES.values():
             positive = positive_direction(one.subject)
+        sd = one.measurement_sd
+        if one.group == "speed" and name == "smoothness":
+            known = (stroke for stroke in full_strokes(results.repetitions) if math.isfinite(stroke.sparc))
+            sd = root_mean_square(stroke.sparc_sd() for stroke in known)
         rows.append(
             MeasureRow(
                 *common, name, f"{one.subject}, passive" if one.is_passive else one.subject, one.unit, one.mean, one.sd,
-                one.best, one.measurement_sd, one.count, one.is_lower_bound, one.seen_share, one.is_inferred,
+                one.best, sd, one.count, one.is_lower_bound, one.seen_share, one.is_inferred,
                 positive=positive,
                 estimate="smoother" if results.is_smoothed else "filter",
             )

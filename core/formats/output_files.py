@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any, Protocol
+from typing import IO, Any
 
 from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.platform.durable import open_private, publish, write_fault
@@ -21,12 +21,6 @@ from carpus.core.platform.durable import open_private, publish, write_fault
 PART_SUFFIX = ".half"
 _FORMULA_STARTS = tuple("=+-@\t\r\n")
 _NUMBER_PATTERN = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-
-
-class SupportsWrite(Protocol):
-    """Object that :mod:`csv` can write to."""
-
-    def write(self, text: str, /) -> int: ...
 
 
 @contextmanager
@@ -110,7 +104,7 @@ def write_new_table(
 
 
 def write_rows(
-    text: SupportsWrite, head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT
+    text: IO[str], head: Sequence[str], rows: Iterable[Iterable[str]], dialect: TableDialect = MACHINE_DIALECT
 ) -> None:
     """Write a table into a text; ``head`` may be empty."""
     table = csv.writer(text, delimiter=dialect.separator, lineterminator="\n")

@@ -25,11 +25,8 @@ MIN_OCCLUSION_S = 0.1
 class Coherence:
     """Plausibility of an occluded digit's pose.
 
-    Attributes
-    ----------
-    occluded_share : of the tracked frames
-    coherent_share, known_share : of the occluded frames
-    jumps_m : jump of the fingertip, in the hand's axes, at each reappearance
+    ``occluded_share`` of the tracked frames, ``coherent_share`` and ``known_share`` of the occluded ones; ``jumps_m``
+    of the fingertip, in the hand's axes, at each reappearance.
     """
 
     occluded_share: float
@@ -98,19 +95,14 @@ MAX_HOLD_SPEED_RAD_S = math.radians(6.0)
 """A held angle drifts no faster; tremor oscillates about its place."""
 
 
-@dataclass(frozen=True, slots=True)
-class CoFlexion:
-    """Pearson correlation of two joints, and the lag of the second behind the first."""
+def co_flexion(first: FloatArray, second: FloatArray, rate_hz: float) -> tuple[float, float]:
+    """Return the correlation of two evenly sampled angles (n,), rad, and the lag of the second in seconds.
 
-    correlation: float
-    lag_s: float
-
-
-def co_flexion(first: FloatArray, second: FloatArray, rate_hz: float) -> CoFlexion:
-    """Correlate two evenly sampled angles (n,), rad; NaN if one hardly moves or too little is known."""
+    NaN if one hardly moves or too little is known.
+    """
     good = np.isfinite(first) & np.isfinite(second)
     if int(good.sum()) < 8 or min(first[good].std(), second[good].std()) < MIN_SD_RAD:
-        return CoFlexion(math.nan, math.nan)
+        return math.nan, math.nan
     correlation = float(np.corrcoef(first[good], second[good])[0, 1])
     most = min(round(MAX_LAG_S * rate_hz), len(first) - 1)
     best, lag = -math.inf, 0
@@ -123,7 +115,7 @@ def co_flexion(first: FloatArray, second: FloatArray, rate_hz: float) -> CoFlexi
         found = float(np.corrcoef(a[both], b[both])[0, 1])
         if found > best + 1e-12:
             best, lag = found, shift
-    return CoFlexion(correlation, lag / rate_hz)
+    return correlation, lag / rate_hz
 
 
 def synergy_share(angles: FloatArray) -> float:
@@ -149,15 +141,14 @@ def enslaving_share(instructed: FloatArray, other: FloatArray) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Tremor:
-    """RMS amplitude between 3 and 12 Hz in the steadiest run, and its peak frequency.
+    """RMS amplitude between 3 and 12 Hz in the steadiest run.
 
     ``is_tremor``: at least three times the tracker's own noise. ``has_few_frames``: held, but the frame rate is too
     low.
     """
 
-    rms_rad: float
-    peak_hz: float
-    is_tremor: bool
+    rms_rad: float = math.nan
+    is_tremor: bool = False
     has_few_frames: bool = False
 
 
@@ -178,12 +169,12 @@ def measure_tremor(angle: Signal, noise_rms_rad: float) -> Tremor:
     longest = max(find_runs(_is_held(angle)), key=lambda part: part.stop - part.start, default=slice(0, 0))
     value = angle.value[longest]
     if not len(value) >= MIN_TREMOR_S * angle.rate_hz:  # nor where the rate is unknown
-        return Tremor(math.nan, math.nan, False)
+        return Tremor()
     if angle.rate_hz < MIN_TREMOR_FPS:
-        return Tremor(math.nan, math.nan, False, has_few_frames=True)
+        return Tremor(has_few_frames=True)
     part = Signal(angle.time_s[longest], value, angle.rate_hz, 1.0, np.empty((0, 2)))
     shaken = value - low_pass(part, DRIFT_HZ).value
     frequency, power = sps.welch(shaken, angle.rate_hz, nperseg=round(TREMOR_WINDOW_S * angle.rate_hz))
     band = (frequency >= TREMOR_BAND_HZ[0]) & (frequency <= TREMOR_BAND_HZ[1])
     rms = math.sqrt(float(power[band].sum() * (frequency[1] - frequency[0])))
-    return Tremor(rms, float(frequency[band][np.argmax(power[band])]), rms > MIN_TREMOR_TO_NOISE * noise_rms_rad)
+    return Tremor(rms, rms > MIN_TREMOR_TO_NOISE * noise_rms_rad)

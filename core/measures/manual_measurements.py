@@ -96,9 +96,11 @@ def _force_measure(
 
 
 def _size_measure(
-    id: str, name: str, min_value: float, max_value: float, usual_range: tuple[float, float]
-) -> ManualMeasure:
-    return ManualMeasure(id, "size", "cm", min_value, max_value, usual_range, "", math.nan, "", name=name)
+    id: str, name: str, min_value: float, max_value: float, usual_range: tuple[float, float], unit: Unit = "cm",
+    decimals: int = 1,
+) -> ManualMeasure:  # fmt: skip
+    limits = (min_value, max_value, usual_range)
+    return ManualMeasure(id, "size", unit, *limits, "", math.nan, "", decimals=decimals, name=name)
 
 
 def _score_measure(
@@ -140,20 +142,6 @@ def _finger_measures(finger: int, joints: tuple[str, ...]) -> Iterator[ManualMea
 
 _FINGERS = tuple(measure for finger, joints in FINGER_JOINTS.items() for measure in _finger_measures(finger, joints))
 
-_VOLUME = ManualMeasure(
-    "VOLUME",
-    "size",
-    "ml",
-    50.0,
-    1500.0,
-    (200.0, 800.0),
-    "",
-    math.nan,
-    "",
-    decimals=0,
-    name=phrase("Volume of the hand"),
-)
-
 MEASURES: tuple[ManualMeasure, ...] = (
     *_WRIST,
     _force_measure("GRIP", phrase("Grip"), 80.0, 6.5, "Kim 2014, Bohannon 2019"),
@@ -163,7 +151,7 @@ MEASURES: tuple[ManualMeasure, ...] = (
     _size_measure("WRIST_ROUND", phrase("Wrist circumference"), 5.0, 40.0, (11.0, 25.0)),
     _size_measure("PALM_ROUND", phrase("Palm circumference (MCP level)"), 5.0, 50.0, (14.0, 30.0)),
     _size_measure("FIGURE_OF_EIGHT", phrase("Figure-of-eight (hand oedema)"), 10.0, 80.0, (30.0, 60.0)),
-    _VOLUME,
+    _size_measure("VOLUME", phrase("Volume of the hand"), 50.0, 1500.0, (200.0, 800.0), "ml", 0),
     _score_measure("PRWE", "PRWE", 100.0, "less", 14.0, SCORE_SOURCE),
     _score_measure("QUICK_DASH", "QuickDASH", 100.0, "less", 14.0, SCORE_SOURCE),
     _score_measure("DASH", "DASH", 100.0, "less", 10.0, SCORE_SOURCE),

@@ -10,7 +10,10 @@ the filter's angular velocity (reference 4.5).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -102,8 +105,8 @@ _PAUSE_SDS = 2.0
 _PEAK_RISE_SHARE = 0.10
 _EDGE_SHARE, _EDGES_TO_DURATION = 0.1, 1.74
 """In a minimum-jerk movement 10 to 90 % of the way take 0.507 of the time, above 5 % of the peak 0.881."""
-_HALF_HEIGHT_SHARE, _MINIMUM_JERK_PEAK_TO_MEAN = 0.541, 1.875
-"""Share of the time that a minimum-jerk movement is above half its peak; peak over mean speed."""
+_HALF_HEIGHT_SHARE = 0.541
+"""Share of the time that a minimum-jerk movement is above half its peak."""
 _MAX_SUBMOVEMENT_SHARE, _SUBMOVEMENT_SDS = 0.6, 2.0
 """A shorter quickest part is a sub-movement, if it is so much above the noise."""
 _NOISE_MARGIN_CYCLES = 3.0
@@ -118,12 +121,11 @@ class StrokeMeasures:
     """Measures of one stroke: unsigned speeds in rad/s, smoothness dimensionless.
 
     ``movement_time_s`` goes from ``onset_s`` to ``offset_s`` with pauses; ``pause_s`` is their total.
-    ``peak_speed_sd_rad_s`` and ``sparc_sd`` are what noise leaves in peak speed and SPARC. ``too_slow`` and
+    ``peak_speed_sd_rad_s`` and ``sparc_sd()`` are what noise leaves in peak speed and SPARC. ``too_slow`` and
     ``too_slow_to_be_smooth``: speed or smoothness is unknown, because noise is too large for this speed.
     """
 
     stroke: Stroke
-    arc_rad: float
     peak_speed_rad_s: float = math.nan
     mean_speed_rad_s: float = math.nan
     movement_time_s: float = math.nan
@@ -132,7 +134,8 @@ class StrokeMeasures:
     pauses: float = math.nan
     pause_s: float = math.nan
     sparc: float = math.nan
-    sparc_sd: float = math.nan
+    sparc_sd: Callable[[], float] = field(default=partial(float, "nan"), compare=False)
+    """Of simulated noise, which takes its time: only where it is written."""
     peak_speed_sd_rad_s: float = math.nan
     onset_s: float = math.nan
     offset_s: float = math.nan
@@ -143,14 +146,14 @@ class StrokeMeasures:
 def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, smoothed: bool = True) -> StrokeMeasures:
     """Measure speed, timing and smoothness of one stroke of a tracked angle (rad) with its stated ``sd``.
 
-    The noise decides how much the angle is low-passed. All but the arc is NaN if the arc is below 10 degrees or the
-    stroke has a gap. Movement time counts from 5 % to 5 % of the peak speed; it and what follows from it are NaN if the
-    speed does not fall so far on both sides. Smoothness is that of the whole stroke, from rest, or the last minimum of
-    speed, to rest, as in published values. Movement units are NaN if none rises by 5 degrees/s.
+    The noise decides how much the angle is low-passed. All is NaN if the arc is below 10 degrees or the stroke has a
+    gap. Movement time counts from 5 % to 5 % of the peak speed; it and what follows from it are NaN if the speed does
+    not fall so far on both sides. Smoothness is that of the whole stroke, from rest, or the last minimum of speed, to
+    rest, as in published values. Movement units are NaN if none rises by 5 degrees/s.
     """
     part = _low_pass_stroke(angle, stroke, MAX_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s)
     if not part.is_finite.all() or len(part.time_s) < 2:
-        return StrokeMeasures(stroke, float(np.ptp(part.value[part.is_finite])) if part.is_finite.any() else math.nan)
+        return StrokeMeasures(stroke)
     smooth_part = _low_pass_stroke(angle, stroke, SPEED_CUTOFF_HZ).crop(stroke.start_s, stroke.end_s)
     duration_s = estimate_duration_s(smooth_part.value, angle.rate_hz)
     noise = _stroke_noise(angle, stroke, sd, duration_s, smoothed=smoothed)
@@ -158,44 +161,31 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     high, low = (estimate_extreme(part.value, clean, noise, part.rate_hz, largest=end)[0] for end in (True, False))
     arc = high - low
     if not arc >= MIN_AMPLITUDE_RAD:
-        return StrokeMeasures(stroke, arc)
-    quickest = _find_quickest_part(angle, stroke, noise, arc, duration_s)
-    if quickest is None:
-        return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
-    motion = _measure_motion(angle, stroke, noise, quickest.cutoff_hz)
+        return StrokeMeasures(stroke)
+    speed_cutoff_hz, submovement_s = _find_quickest_part(angle, stroke, noise, arc, duration_s)
+    if math.isnan(speed_cutoff_hz):
+        return StrokeMeasures(stroke, too_slow=True, too_slow_to_be_smooth=True)
+    motion = _measure_motion(angle, stroke, noise, speed_cutoff_hz)
     if motion is None:
         return _measure_without_rest(angle, stroke, sd, arc, smoothed=smoothed)
-    submovement_s = quickest.duration_s if quickest.has_stops else math.inf
-    cutoff_hz = cutoff_for_smoothness(noise, arc, motion.duration_s, submovement_s)
+    measured = motion.measures
+    cutoff_hz = cutoff_for_smoothness(noise, arc, measured.movement_time_s, submovement_s)
     smooth = _measure_motion(angle, stroke, noise, cutoff_hz)
-    speed_sd = noise.speed_sd(quickest.cutoff_hz)
-    is_detailed = quickest.cutoff_hz >= MIN_SMOOTHNESS_CUTOFF_HZ
-    pauses_s = motion.pauses_s if is_detailed and _PAUSE_SDS * speed_sd <= PAUSE_SPEED_SHARE * motion.peak else None
-    min_rise, min_dip = max(_PEAK_RISE_SHARE * motion.peak, MIN_PEAK_RAD_S), DIP_SDS * speed_sd
-    peaks = math.nan
+    speed_sd, peak = noise.speed_sd(speed_cutoff_hz), measured.peak_speed_rad_s
+    is_detailed = speed_cutoff_hz >= MIN_SMOOTHNESS_CUTOFF_HZ
+    if not (is_detailed and _PAUSE_SDS * speed_sd <= PAUSE_SPEED_SHARE * peak):
+        measured = replace(measured, pauses=math.nan, pause_s=math.nan)
+    min_rise, min_dip = max(_PEAK_RISE_SHARE * peak, MIN_PEAK_RAD_S), DIP_SDS * speed_sd
     if is_detailed and min_dip <= min_rise:
-        peaks = float(count_speed_peaks(motion.onset_to_offset, angle.rate_hz, min_rise, min_dip)) or math.nan
-    smoothness, smoothness_sd = math.nan, math.nan
+        peaks = count_speed_peaks(motion.onset_to_offset, angle.rate_hz, min_rise, min_dip)
+        measured = replace(measured, peaks=float(peaks) or math.nan)
     if smooth is not None:
-        smoothness = sparc(smooth.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S)
-        smoothness_sd = _estimate_sparc_sd(smooth.rest_to_rest, angle.rate_hz, noise, cutoff_hz)
-    return StrokeMeasures(
-        stroke=stroke,
-        arc_rad=arc,
-        peak_speed_rad_s=motion.peak,
-        mean_speed_rad_s=motion.mean,
-        movement_time_s=motion.duration_s,
-        time_to_peak_share=motion.time_to_peak_share,
-        peaks=peaks,
-        pauses=math.nan if pauses_s is None else float(len(pauses_s)),
-        pause_s=math.nan if pauses_s is None else math.fsum(pauses_s),
-        sparc=smoothness,
-        sparc_sd=smoothness_sd,
-        peak_speed_sd_rad_s=speed_sd,
-        onset_s=motion.onset_s,
-        offset_s=motion.offset_s,
-        too_slow_to_be_smooth=math.isnan(smoothness),
-    )
+        measured = replace(
+            measured,
+            sparc=sparc(smooth.rest_to_rest, angle.rate_hz, MIN_PEAK_RAD_S),
+            sparc_sd=partial(_estimate_sparc_sd, smooth.rest_to_rest, angle.rate_hz, noise, cutoff_hz),
+        )
+    return replace(measured, peak_speed_sd_rad_s=speed_sd, too_slow_to_be_smooth=math.isnan(measured.sparc))
 
 
 def _estimate_sparc_sd(speed: FloatArray, rate_hz: float, noise: Noise, cutoff_hz: float) -> float:
@@ -223,14 +213,14 @@ def _measure_without_rest(
     near_s = 1.5 / angle.rate_hz
     at_end = stroke.start_s - angle.time_s[0] < near_s or angle.time_s[-1] - stroke.end_s < near_s
     if at_end or any(angle.is_near_gap(time_s, near_s) for time_s in (stroke.start_s, stroke.end_s)):
-        return StrokeMeasures(stroke, arc)
+        return StrokeMeasures(stroke)
     duration_s = stroke.end_s - stroke.start_s
     noise = _stroke_noise(angle, stroke, sd, duration_s, smoothed=smoothed)
     cutoff_hz = cutoff_for_speed(noise, _MIN_PEAK_TO_MEAN * arc / duration_s, duration_s)
     if math.isnan(cutoff_hz):
-        return StrokeMeasures(stroke, arc, too_slow=True, too_slow_to_be_smooth=True)
+        return StrokeMeasures(stroke, too_slow=True, too_slow_to_be_smooth=True)
     speed = _stroke_speed(angle, stroke, cutoff_hz)
-    return StrokeMeasures(stroke, arc, float(speed.max()), peak_speed_sd_rad_s=noise.speed_sd(cutoff_hz))
+    return StrokeMeasures(stroke, float(speed.max()), peak_speed_sd_rad_s=noise.speed_sd(cutoff_hz))
 
 
 def estimate_duration_s(angle: FloatArray, rate_hz: float) -> float:
@@ -256,27 +246,17 @@ _MIN_PEAK_TO_MEAN = 1.5
 """Least peak over mean speed of a movement from rest to rest."""
 
 
-@dataclass(frozen=True, slots=True)
-class _QuickestPart:
-    """Cut-off for a stroke's speed, with duration and arc of its quickest part (all of it without stops)."""
-
-    cutoff_hz: float
-    duration_s: float
-    arc: float
-    has_stops: bool
-
-
 def _find_quickest_part(
     angle: Signal, stroke: Stroke, noise: Noise, arc: float, duration_s: float
-) -> _QuickestPart | None:
-    """Find the quickest part of a stroke and its cut-off; None if the stroke is too slow to assess.
+) -> tuple[float, float]:
+    """Return the cut-off for a stroke's speed and the duration of its quickest part, infinite without stops.
 
-    The mean over a stroke with stops tells little of its quickest part. Where more of the spectrum shows such parts
-    above the noise, they decide the cut-off.
+    The cut-off is NaN if the stroke is too slow to assess. The mean over a stroke with stops tells little of its
+    quickest part. Where more of the spectrum shows such parts above the noise, they decide the cut-off.
     """
     cutoff_hz = cutoff_for_speed(noise, _MIN_PEAK_TO_MEAN * arc / duration_s, duration_s)
     if math.isnan(cutoff_hz):
-        return None
+        return math.nan, math.inf
     smooth = _stroke_speed(angle, stroke, cutoff_hz)
     most_hz = max_cutoff_for_speed(noise, float(smooth.max()))
     for closer_hz in (cutoff_hz, *np.geomspace(cutoff_hz, max(most_hz, cutoff_hz), 5)[1:].tolist()):
@@ -289,10 +269,8 @@ def _find_quickest_part(
         added = noise.speed_sd(closer_hz) ** 2 - noise.speed_sd(cutoff_hz) ** 2
         is_visible = np.mean((closer - smooth) ** 2) >= _SUBMOVEMENT_SDS**2 * added
         if part_s < _MAX_SUBMOVEMENT_SHARE * duration_s and is_visible:
-            part_hz = cutoff_for_speed(noise, top, part_s)
-            part_arc = min(top * part_s / _MINIMUM_JERK_PEAK_TO_MEAN, arc)
-            return None if math.isnan(part_hz) else _QuickestPart(part_hz, part_s, part_arc, has_stops=True)
-    return _QuickestPart(cutoff_hz, duration_s, arc, has_stops=False)
+            return cutoff_for_speed(noise, top, part_s), part_s
+    return cutoff_hz, math.inf
 
 
 def _stroke_speed(angle: Signal, stroke: Stroke, cutoff_hz: float) -> FloatArray:
@@ -311,17 +289,10 @@ def _low_pass_stroke(angle: Signal, stroke: Stroke, cutoff_hz: float) -> Signal:
     return low_pass(angle.crop(stroke.start_s - reach_s, stroke.end_s + reach_s), cutoff_hz)
 
 
-@dataclass(frozen=True, slots=True)
-class _StrokeMotion:
-    """Stroke after a low-pass: peak and mean speed, pauses, speeds from onset to offset and rest to rest."""
+class _StrokeMotion(NamedTuple):
+    """Low-passed stroke, and its speeds (n,) from onset to offset and from rest to rest."""
 
-    peak: float
-    mean: float
-    duration_s: float
-    time_to_peak_share: float
-    pauses_s: tuple[float, ...]
-    onset_s: float
-    offset_s: float
+    measures: StrokeMeasures
     onset_to_offset: FloatArray
     rest_to_rest: FloatArray
 
@@ -348,17 +319,19 @@ def _measure_motion(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: floa
     speeds = np.concatenate(([level], velocity[begin : end + 1], [level]))
     peak = float(speeds.max())
     from_rest, to_rest = _find_rest_sample(velocity, begin, -1), _find_rest_sample(velocity, end, +1)
-    return _StrokeMotion(
-        peak=peak,
-        mean=min(float(np.trapezoid(speeds, at)) / (offset - onset), peak),
-        duration_s=(offset - onset) / angle.rate_hz,
+    pauses_s = _pause_durations_s(at / angle.rate_hz, np.abs(speeds), PAUSE_SPEED_SHARE * peak)
+    measured = StrokeMeasures(
+        stroke,
+        peak_speed_rad_s=peak,
+        mean_speed_rad_s=min(float(np.trapezoid(speeds, at)) / (offset - onset), peak),
+        movement_time_s=(offset - onset) / angle.rate_hz,
         time_to_peak_share=(peak_at - onset) / (offset - onset),
-        pauses_s=_pause_durations_s(at / angle.rate_hz, np.abs(speeds), PAUSE_SPEED_SHARE * peak),
+        pauses=float(len(pauses_s)),
+        pause_s=math.fsum(pauses_s),
         onset_s=float(smooth.time_s[0]) + onset / angle.rate_hz,
         offset_s=float(smooth.time_s[0]) + offset / angle.rate_hz,
-        onset_to_offset=np.abs(velocity[begin : end + 1]),
-        rest_to_rest=np.abs(velocity[from_rest : to_rest + 1]),
     )
+    return _StrokeMotion(measured, np.abs(velocity[begin : end + 1]), np.abs(velocity[from_rest : to_rest + 1]))
 
 
 def _find_turning_bands(angle: FloatArray, noise: Noise) -> tuple[int, int]:

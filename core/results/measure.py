@@ -8,7 +8,7 @@ NaN is unknown.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -91,13 +91,18 @@ def summarise_values(
     known = np.array([value for value in values if math.isfinite(value)])
     if not len(known):
         return Measure(group, subject, quantity, unit, tuple(values), math.nan, unknown_reason=unknown_reason)
-    stated = np.array([sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value + sd)])
     return Measure(
         group, subject, quantity, unit, tuple(values), float(known.mean()),
         sd=float(known.std(ddof=1)) if len(known) >= MIN_REPETITIONS_FOR_SD else math.nan,
         best=math.nan if best is None else float(best(known.tolist())),
-        measurement_sd=float(np.sqrt(np.mean(stated**2))) if len(stated) else math.nan,
+        measurement_sd=root_mean_square(sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value)),
     )  # fmt: skip
+
+
+def root_mean_square(values: Iterable[float]) -> float:
+    """Return the root mean square of the known values; NaN without any."""
+    known = np.array([value for value in values if math.isfinite(value)])
+    return float(np.sqrt(np.mean(known**2))) if len(known) else math.nan
 
 
 def wrist_angle_index(subject: str) -> int:

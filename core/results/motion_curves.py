@@ -6,7 +6,6 @@ is NaN, and unseen stretches are never filled in.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,9 +53,9 @@ class MotionCurves:
     is_joint_seen: BoolArray
 
 
-def compute_motion_curves(session: Session) -> MotionCurves:
-    """Compute the curves, smoothed if there is a smoother's result; NaN where the hand was lost."""
-    motion, side = motion_estimate(session), session.header.hand
+def compute_motion_curves(session: Session, motion: Motion | None = None) -> MotionCurves:
+    """Compute the curves, by default smoothed if there is a smoother's result; NaN where the hand was lost."""
+    motion, side = motion or motion_estimate(session), session.header.hand
     count = motion.joint_position_m.shape[1]
     zyz, sd, total = zyz_with_sd(motion.rotation_w2_w0, motion.angles_sd_rad, side)
     return MotionCurves(
@@ -76,34 +75,23 @@ def compute_motion_curves(session: Session) -> MotionCurves:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class CurveColumn:
-    """Curve ``values`` (N,); ``name`` ends with the unit."""
-
-    name: str
-    values: FloatArray
-
-
-def motion_columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
-    """Yield every curve of a session by the filter or smoother, ``motion``."""
-    side = session.header.hand
-    for axis, letter in enumerate("xyz"):
-        yield CurveColumn(f"position_{letter}_mm", 1e3 * motion.position_m[:, axis])
-    for axis, letter in enumerate("xyz"):
-        yield CurveColumn(f"velocity_{letter}_mm_s", 1e3 * motion.velocity_m_s[:, axis])
-    for axis, letter in enumerate("xyz"):
-        yield CurveColumn(f"angular_velocity_{letter}_deg_s", np.degrees(motion.angular_velocity_rad_s[:, axis]))
-    zyz, sd, total = zyz_with_sd(motion.rotation_w2_w0, motion.angles_sd_rad, side)
+def motion_columns(session: Session, motion: Motion) -> dict[str, FloatArray]:
+    """Return every curve (N,) by the filter or smoother, ``motion``, by a name that ends with the unit."""
+    curves, isb = compute_motion_curves(session, motion), isb_from_rotation(motion.rotation_w2_w0, session.header.hand)
+    out: dict[str, FloatArray] = {}
+    for pattern, values in (
+        ("position_{}_mm", curves.position_mm),
+        ("velocity_{}_mm_s", curves.velocity_mm_s),
+        ("angular_velocity_{}_deg_s", curves.angular_velocity_deg_s),
+    ):
+        out |= {pattern.format(letter): values[:, axis] for axis, letter in enumerate("xyz")}
     for k, name in enumerate(("alpha", "beta", "gamma")):
-        yield CurveColumn(f"zyz_{name}_deg", np.degrees(zyz[:, k]))
-        yield CurveColumn(f"zyz_{name}_sd_deg", np.degrees(sd[:, k]))
-    yield CurveColumn("zyz_alpha_plus_gamma_deg", np.degrees(total))
-    isb = np.degrees(isb_from_rotation(motion.rotation_w2_w0, side))
-    for k, name in enumerate(WRIST_ANGLES):
-        yield CurveColumn(f"isb_{name}_deg", isb[:, k])
-    for m, marker in enumerate(session.header.protocol.markers[: motion.joint_position_m.shape[1]]):
-        for axis, letter in enumerate("xyz"):
-            yield CurveColumn(f"joint_{marker}_{letter}_mm", 1e3 * motion.joint_position_m[:, m, axis])
+        out |= {f"zyz_{name}_deg": curves.zyz_deg[:, k], f"zyz_{name}_sd_deg": curves.zyz_sd_deg[:, k]}
+    out["zyz_alpha_plus_gamma_deg"] = curves.zyz_sum_deg
+    out |= {f"isb_{name}_deg": np.degrees(isb[:, k]) for k, name in enumerate(WRIST_ANGLES)}
+    for m, marker in enumerate(curves.joint_names):
+        out |= {f"joint_{marker}_{letter}_mm": curves.joint_mm[:, m, axis] for axis, letter in enumerate("xyz")}
+    return out
 
 
 def visible_angle_deg(session: Session, name: str) -> FloatArray:

@@ -20,25 +20,6 @@ NORMAL_TOTAL_DEG = {1: 140.0, 2: 260.0, 3: 260.0, 4: 260.0, 5: 260.0}
 """TAM of a healthy finger if the other hand is unknown (clinical reference 4.3)."""
 
 
-def total_share(total_deg: float, finger: int, other_hand_deg: float = math.nan) -> float:
-    """Return a TAM's share of the other hand's, or of the normal one if that is unknown.
-
-    >>> round(total_share(195.0, 3), 2)
-    0.75
-    """
-    norm = other_hand_deg if other_hand_deg > 0.0 else NORMAL_TOTAL_DEG[finger]
-    return total_deg / norm
-
-
-def total_grade(share: float) -> Grade | None:
-    """Grade a share: excellent from 100 %, good above 75 %, fair above 50 %, else poor; None if unknown."""
-    if not math.isfinite(share):
-        return None
-    if share >= 1.0:
-        return "excellent"
-    return "good" if share > 0.75 else "fair" if share > 0.5 else "poor"
-
-
 @dataclass(frozen=True, slots=True)
 class Norm:
     """Lowest and highest value of the sources in degrees; source, ages and sexes in words."""
@@ -62,7 +43,7 @@ class Person:
     age: int
 
 
-_ADULTS = phrase("adults, ages not given; not for children or old age")
+_ADULTS = phrase("adults (ages not stated, not for children or older people)")
 _BOTH = phrase("women and men together")
 _WRIST_SOURCE = phrase("AMA Guides; AAOS 1965 (goniometer)")
 _TOTAL_SOURCE = phrase("ASSH, sum of active flexion in a fist")
@@ -164,12 +145,16 @@ def compute_total_shares(
             finger, own = int(row.subject[3:]), beside.get(row.subject, math.nan)
             if not own > 0.0 and total_norm(finger, exercise) is None:
                 continue
-            share = total_share(row.mean, finger, own)
+            share = row.mean / (own if own > 0.0 else NORMAL_TOTAL_DEG[finger])
             what = SHARE_OF_OTHER if own > 0.0 else SHARE_OF_NORMAL
             out.append(Measure("share", row.subject, what, "share", (share,), share, is_lower_bound=row.is_lower_bound))
     return tuple(out)
 
 
 def grade_share(share: Measure) -> Grade | None:
-    """Grade a share of a finger's total; None for a lower bound."""
-    return None if share.is_lower_bound else total_grade(share.mean)
+    """Grade a share: excellent from 100 %, good above 75 %, fair above 50 %, else poor; None for a lower bound."""
+    if share.is_lower_bound:
+        return None
+    if share.mean >= 1.0:
+        return "excellent"
+    return "good" if share.mean > 0.75 else "fair" if share.mean > 0.5 else "poor"

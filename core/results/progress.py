@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -165,8 +165,7 @@ class Progress:
         """Comparison of the trained arc, or the largest change beyond error."""
         beyond = [item for item in self.comparisons if item.is_beyond_error]
         arcs = [item for item in self.comparisons if item.after.quantity == "arc"]
-        best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
-        return best[0]
+        return next(iter((*(item for item in arcs if item in beyond), *beyond, *arcs)), None)
 
 
 def compare_ranges(
@@ -183,19 +182,18 @@ def compare_ranges(
         other = before.find(*row.key)
         if other is None:
             continue
-        limit = change_limit_deg(after, row, is_arc_change=True)
-        difference = row.mean - other.mean
-        limited = (other.is_lower_bound, row.is_lower_bound) if row.wrist_angle < 0 else (False, False)
+        item = Comparison(other, row, change_limit_deg(after, row, is_arc_change=True), "not_judged")
+        difference, is_beyond = item.difference_deg, abs(item.difference_deg) > item.limit_deg
         # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
-        sure_gain = row.quantity == "arc" and limited == (False, True) and difference > limit
+        sure_gain = row.quantity == "arc" and item.is_lower_bound and is_beyond and difference > 0.0
         reasons = tuple(dict.fromkeys((*unfair, *_range_obstacles(before, other, after, row))))
-        if not reasons and any(limited) and not sure_gain:
+        if not reasons and any(item.lower_bounds) and not sure_gain:
             reasons = ("hidden",)
         verdict: Verdict = "not_judged"
         if not reasons:
-            better = difference > 0 if row.wrist_angle >= 0 or row.quantity != "extension" else difference < 0
-            verdict = "no_change" if not abs(difference) > limit else "improved" if better else "worse"
-        out.append(Comparison(other, row, limit, verdict, reasons))
+            better = difference < 0.0 if item.is_joint and row.quantity == "extension" else difference > 0.0
+            verdict = "no_change" if not is_beyond else "improved" if better else "worse"
+        out.append(replace(item, verdict=verdict, reasons=reasons))
     return tuple(out)
 
 
@@ -223,13 +221,11 @@ def change_limit_deg(figures: SessionResults, row: Measure, *, is_arc_change: bo
     The default is that of one end, unless ``is_arc_change``: both ends of an arc may be off.
     """
     own = figures.study.limit_deg(row.subject, row.quantity) if figures.study is not None else None
-    both_ends = is_arc_change and row.quantity == "arc" and not is_total_active_motion(row.subject)
-    default = math.degrees(change_limit_rad(_limit_name(row))) * (ARC_LIMIT_FACTOR if both_ends else 1.0)
+    is_total = is_total_active_motion(row.subject)
+    both_ends = is_arc_change and row.quantity == "arc" and not is_total
+    default_rad = change_limit_rad(TOTAL_ACTIVE_MOTION if is_total else row.subject)
+    default = math.degrees(default_rad) * (ARC_LIMIT_FACTOR if both_ends else 1.0)
     return default if own is None else own
-
-
-def _limit_name(row: Measure) -> str:
-    return TOTAL_ACTIVE_MOTION if is_total_active_motion(row.subject) else row.subject
 
 
 def incomparable_reasons(first: SessionResults, other: SessionResults) -> tuple[IncomparableReason, ...]:
@@ -289,8 +285,8 @@ def select_latest_versions(sessions: Sequence[SessionResults]) -> list[SessionRe
 def find_previous(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """Return the last earlier included session of the same hand, protocol and exercise."""
     alike = [other for other in select_latest_versions(history) if other.side == figures.side]
-    earlier = (one for one in alike if one.when < figures.when and is_same_task(one, figures) and _has_range(one))
-    return max(earlier, key=lambda other: other.when, default=None)
+    earlier = [one for one in alike if one.when < figures.when and _is_same_measured_task(one, figures)]
+    return earlier[-1] if earlier else None
 
 
 def error_limits(history: Sequence[SessionResults]) -> ErrorLimits:
@@ -301,23 +297,19 @@ def error_limits(history: Sequence[SessionResults]) -> ErrorLimits:
 def find_other_hand(history: Sequence[SessionResults], figures: SessionResults) -> SessionResults | None:
     """Return the last session of the other hand in the same protocol and exercise."""
     others = [other for other in select_latest_versions(history) if other.side != figures.side]
-    alike = (one for one in others if is_same_task(one, figures) and _has_range(one))
-    return max(alike, key=lambda other: other.when, default=None)
+    alike = [one for one in others if _is_same_measured_task(one, figures)]
+    return alike[-1] if alike else None
 
 
 def is_same_task(one: SessionResults, other: SessionResults) -> bool:
     """Return whether ``one`` is an included session of another recording with the task of ``other``."""
     same = (one.exercise.id, one.protocol, one.is_simulated) == (other.exercise.id, other.protocol, other.is_simulated)
-    is_other = one.session_id != other.session_id and not _is_same_recording(one, other)
-    return same and is_other and not one.is_excluded
+    is_same_recording = bool(one.recording_id) and one.recording_id == other.recording_id
+    return same and one.session_id != other.session_id and not is_same_recording and not one.is_excluded
 
 
-def _has_range(one: SessionResults) -> bool:
-    return bool(one.measures_in_group("range"))
-
-
-def _is_same_recording(one: SessionResults, other: SessionResults) -> bool:
-    return bool(one.recording_id) and one.recording_id == other.recording_id
+def _is_same_measured_task(one: SessionResults, other: SessionResults) -> bool:
+    return is_same_task(one, other) and bool(one.measures_in_group("range"))
 
 
 Goals = Mapping[tuple[str, Side], tuple[float, float]]

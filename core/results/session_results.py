@@ -17,7 +17,7 @@ import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
-from carpus.core.measures.repetitions import NoRepetitionReason, explain_no_repetitions
+from carpus.core.measures.repetitions import NoRepetitionReason, Repetition, explain_no_repetitions
 from carpus.core.measures.signals import low_pass, resample_evenly
 from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.measures.wrist_centre import estimate_wrist_centre, rotation_in_w0
@@ -53,6 +53,11 @@ SPEED_MEASURES: tuple[tuple[str, str, str, Best], ...] = (
 """Name, unit, attribute, and choice of the best value of what is measured of every stroke."""
 
 
+def full_strokes(repetitions: Sequence[RepetitionResult]) -> list[StrokeMeasures]:
+    """Return the strokes of included repetitions that go from one turning point to the other."""
+    return [stroke for one in repetitions if one.is_counted for stroke in one.strokes if not stroke.stroke.is_half]
+
+
 def summarise_strokes(of: str, strokes: Sequence[StrokeMeasures]) -> tuple[Measure, ...]:
     """Summarise the included strokes; unknown if the tracker's noise hides their speed or smoothness."""
     slow: dict[str, UnknownReason] = {
@@ -62,8 +67,7 @@ def summarise_strokes(of: str, strokes: Sequence[StrokeMeasures]) -> tuple[Measu
     out = []
     for what, unit, name, best in SPEED_MEASURES:
         read = math.degrees if unit == "deg/s" else float
-        sd_name = {"peak speed": "peak_speed_sd_rad_s", "smoothness": "sparc_sd"}.get(what)
-        sds = [read(getattr(one, sd_name)) for one in strokes] if sd_name else ()
+        sds = [read(one.peak_speed_sd_rad_s) for one in strokes] if what == "peak speed" else ()
         values = [read(getattr(one, name)) for one in strokes]
         out.append(
             summarise_values("speed", of, what, unit, values, sds=sds, best=best, unknown_reason=slow.get(what, ""))
@@ -91,11 +95,6 @@ class RecordingQuality:
     centre_mm: tuple[float, float, float] = (math.nan,) * 3
     centre_residual_mm: float = math.nan
     """Centre of the wrist's rotation from the WRIST marker in the hand's axes, and its fit."""
-
-    @classmethod
-    def without_data(cls, frames: int) -> RecordingQuality:
-        """Return the quality of a session if it could not be computed."""
-        return cls(frames, math.nan, math.nan, 0, *(math.nan,) * 5)
 
     @property
     def has_forearm_moved(self) -> bool:
@@ -295,24 +294,22 @@ def compute_session_results(
     active = mask_passive(session, repetitions)
     own = seen if active is session else MeasurableSession.from_session(active)
     over = seen if counted else own
-    rows = attempts.compute("ranges", lambda: measure_wrist_ranges(over, counted), ())
-    rows += attempts.compute("ranges of joints", lambda: measure_joint_ranges(over.tracks, counted, over.exercise), ())
+
+    def measure_ranges(of: MeasurableSession, windows: Sequence[Repetition]) -> tuple[Measure, ...]:
+        wrist = attempts.compute("ranges", lambda: measure_wrist_ranges(of, windows), ())
+        joints = attempts.compute("ranges of joints", lambda: measure_joint_ranges(of.tracks, windows, of.exercise), ())
+        return wrist + joints
+
+    rows = measure_ranges(over, counted)
     if not counted and any(one.is_whole for one in repetitions):
         rows = ()  # all were left out: nothing is measured, least of all the whole recording
-    passive: tuple[Measure, ...] = ()
-    if helped:
-        passive = attempts.compute("ranges", lambda: measure_wrist_ranges(seen, helped), ())
-        passive += attempts.compute(
-            "ranges of joints", lambda: measure_joint_ranges(seen.tracks, helped, seen.exercise), ()
-        )
-    strokes = [stroke for one in repetitions if one.is_counted for stroke in one.strokes if not stroke.stroke.is_half]
+    passive = measure_ranges(seen, helped) if helped else ()
     still = attempts.compute("other movements", lambda: measure_still_angles(own), ())
     speeds: tuple[Measure, ...] = ()
     if trained is not None:
-        speeds = attempts.compute("speed", lambda: summarise_strokes(trained.name, strokes), ())
-    quality = attempts.compute(
-        "quality", lambda: assess_quality(seen, repetitions), RecordingQuality.without_data(len(session))
-    )
+        speeds = attempts.compute("speed", lambda: summarise_strokes(trained.name, full_strokes(repetitions)), ())
+    unknown = RecordingQuality(len(session), math.nan, math.nan, 0, *(math.nan,) * 5)
+    quality = attempts.compute("quality", lambda: assess_quality(seen, repetitions), unknown)
     shares = attempts.compute("grades", lambda: compute_total_shares(rows, seen.exercise), ())
     uncounted: NoRepetitionReason | None = None
     if trained is not None:

@@ -54,14 +54,7 @@ class SessionPair:
         arcs = [one for one in self.ranges if one.after.quantity == "arc"]
         trained = [one for one in arcs if (one.after.subject if one.is_joint else "") == self.first.exercise.joint]
         largest = sorted((one for one in self.ranges if one.is_beyond_error), key=lambda one: -abs(one.difference_deg))
-        best: list[Comparison | None] = [
-            *(one for one in trained if one.is_beyond_error),
-            *largest,
-            *trained,
-            *arcs,
-            None,
-        ]
-        return best[0]
+        return next(iter((*(one for one in trained if one.is_beyond_error), *largest, *trained, *arcs)), None)
 
 
 def order_pair(
@@ -110,20 +103,18 @@ def find_partner(history: Sequence[SessionResults], figures: SessionResults) -> 
     The other hand of the same day, else the last earlier comparable session, else the other hand of another day, else
     the nearest session of the same kind.
     """
-    other = find_other_hand(history, figures)
-    same_day = [
-        one for one in select_latest_versions(history) if one.side != figures.side and is_same_task(one, figures)
-    ]
-    same_day = [one for one in same_day if one.when.date() == figures.when.date()]
+    alike = [one for one in select_latest_versions(history) if is_same_task(one, figures)]
+    same_day = [one for one in alike if one.side != figures.side and one.when.date() == figures.when.date()]
     if same_day:
         fair = [one for one in same_day if not pair_incomparable_reasons(figures, one)]
         return (fair or same_day)[-1]
-    mine = [one for one in select_latest_versions(history) if one.side == figures.side and is_same_task(one, figures)]
+    mine = [one for one in alike if one.side == figures.side]
     earlier = [one for one in mine if one.when < figures.when]
     fair_earlier = [one for one in earlier if not pair_incomparable_reasons(figures, one)]
     later = [one for one in mine if one.when > figures.when]
-    best: list[SessionResults | None] = [*fair_earlier[-1:], other, *earlier[-1:], *later[:1], None]
-    return next((one for one in best if one is not None), None)
+    other = find_other_hand(history, figures)
+    best = (*fair_earlier[-1:], *(() if other is None else (other,)), *earlier[-1:], *later[:1])
+    return best[0] if best else None
 
 
 @dataclass(frozen=True, slots=True)

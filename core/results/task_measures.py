@@ -181,10 +181,8 @@ def measure_opposition(data: MeasureInput) -> list[Measure]:
             nearer = not seen.any() or bool((~seen & (nearest < least)).any())
         if np.isfinite(distance).any():
             of = f"TIP1-TIP{k + 1}"
-            away = _task_measure("least distance", of, (math.nan,), "hidden")
-            out.append(away if nearer else _task_measure("least distance", of, (1e3 * least,)))
-            unsure = _task_measure("touches", of, (math.nan,), "hidden")
-            out.append(unsure if maybe else _task_measure("touches", of, (float(len(near)),)))
+            out.append(_task_measure("least distance", of, (math.nan if nearer else 1e3 * least,), "hidden"))
+            out.append(_task_measure("touches", of, (math.nan if maybe else float(len(near)),), "hidden"))
     place = _to_hand_axes(motion_estimate(session), _marker_index(session, "TIP1"))
     known = np.isfinite(place).all(axis=1) & (np.asarray(session.status) != 2)
     if int(known.sum()) >= 2:
@@ -318,10 +316,8 @@ def measure_spans(data: MeasureInput) -> Iterator[Measure]:
             values_m = distance_m(data.tips_m[:, one], data.tips_m[:, other])
             is_known = np.isfinite(values_m) & _is_tip_seen(data.session, one) & _is_tip_seen(data.session, other)
             of = f"TIP{one + 1}-TIP{other + 1}"
-            if is_known.any():
-                yield _task_measure(name, of, (1e3 * float(np.percentile(values_m[is_known], 99.0)),))
-            else:
-                yield _task_measure(name, of, (math.nan,), "hidden")
+            largest_m = float(np.percentile(values_m[is_known], 99.0)) if is_known.any() else math.nan
+            yield _task_measure(name, of, (1e3 * largest_m,), "hidden")
 
 
 def measure_coordination(data: MeasureInput) -> list[Measure]:
@@ -334,10 +330,9 @@ def measure_coordination(data: MeasureInput) -> list[Measure]:
         a, b = tracks[one].tracked, tracks[other].tracked
         if len(a.value) != len(b.value) or not len(a.value):
             continue
-        found = co_flexion(a.value, b.value, a.rate_hz)
-        out.append(_task_measure("co-flexion", f"{one}, {other}", (found.correlation,)))
-        out.append(_task_measure("lag", f"{one}, {other}", (found.lag_s,)))
-        out.append(_task_measure("enslaving", f"{one}, {other}", (enslaving_share(a.value, b.value),)))
+        correlation, lag_s = co_flexion(a.value, b.value, a.rate_hz)
+        shares = {"co-flexion": correlation, "lag": lag_s, "enslaving": enslaving_share(a.value, b.value)}
+        out += [_task_measure(name, f"{one}, {other}", (value,)) for name, value in shares.items()]
     bending = [track.tracked.value for name, track in tracks.items() if name.endswith("_flexion") and name[3] in "2345"]
     if bending and len({len(values) for values in bending}) == 1 and len(bending[0]):
         out.append(_task_measure("synergy", "fingers", (synergy_share(np.column_stack(bending)),)))

@@ -1452,10 +1452,6 @@
         <translation>teilweise verdeckt oder zu wenige Wdh.</translation>
     </message>
     <message>
-        <source>at least {change}, MDC {limit}</source>
-        <translation>mindestens {change}, MDC {limit}</translation>
-    </message>
-    <message>
         <source>{change}, MDC {limit}</source>
         <translation>{change}, MDC {limit}</translation>
     </message>
@@ -4656,6 +4652,10 @@
         <translation>die Tabelle einer Studie braucht die Spalten person, session und reference</translation>
     </message>
     <message>
+        <source>adults (ages not stated, not for children or older people)</source>
+        <translation>Erwachsene (Alter nicht angegeben, nicht für Kinder und ältere Menschen)</translation>
+    </message>
+    <message>
         <source>it contains more than one record</source>
         <translation>enthält mehr als einen Datensatz</translation>
     </message>
@@ -5804,10 +5804,6 @@ cm</translation>
     <message>
         <source>Walker 1984, 60 people (active, goniometer)</source>
         <translation>Walker 1984, 60 Personen (aktiv, Goniometer)</translation>
-    </message>
-    <message>
-        <source>adults, ages not given; not for children or old age</source>
-        <translation>Erwachsene (Alter in der Quelle nicht angegeben); nicht für Kinder und ältere Menschen</translation>
     </message>
     <message>
         <source>men</source>

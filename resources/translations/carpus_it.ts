@@ -1456,10 +1456,6 @@
         <translation>in parte nascosto, o troppo poche</translation>
     </message>
     <message>
-        <source>at least {change}, MDC {limit}</source>
-        <translation>almeno {change}, MDC {limit}</translation>
-    </message>
-    <message>
         <source>{change}, MDC {limit}</source>
         <translation>{change}, MDC {limit}</translation>
     </message>
@@ -4660,6 +4656,10 @@
         <translation>la tabella di uno studio richiede le colonne person, session e reference</translation>
     </message>
     <message>
+        <source>adults (ages not stated, not for children or older people)</source>
+        <translation>adulti (età non indicata, non per bambini e anziani)</translation>
+    </message>
+    <message>
         <source>it contains more than one record</source>
         <translation>contiene più di un record</translation>
     </message>
@@ -5812,10 +5812,6 @@ cm</translation>
     <message>
         <source>Walker 1984, 60 people (active, goniometer)</source>
         <translation>Walker 1984, 60 persone (attivo, goniometro)</translation>
-    </message>
-    <message>
-        <source>adults, ages not given; not for children or old age</source>
-        <translation>adulti, età non indicata; non per bambini e anziani</translation>
     </message>
     <message>
         <source>men</source>

@@ -19,3 +19,10 @@ def way(parts: list[Part]) -> FloatArray:
         out.append(at + arc * (10 * tau**3 - 15 * tau**4 + 6 * tau**5))
         at += arc
     return np.concatenate(out)
+
+
+def make_repetitions(parts: list[Part], hold_s: float = 1.0) -> FloatArray:
+    """A repetition between two holds, radians."""
+    arc, hold = sum(part[0] for part in parts), np.ones(round(hold_s * RATE))
+    out = way(parts)
+    return np.radians(np.concatenate((0.0 * hold, out, arc * hold, (arc - out), 0.0 * hold)))

@@ -19,7 +19,7 @@ from tests.ui.fakes import NOW, figures_once, session
 def test_with_angle_order_isb_reads_same_rotations() -> None:
     made = session(exercise="FREE", motion="mixed")
     turned = with_angle_order(made, "isb")
-    table = {column.name: column.values for column in motion_columns(made, made.motion)}
+    table = motion_columns(made, made.motion)
     for k, name in enumerate(("deviation", "flexion", "pronosupination")):
         assert np.allclose(np.degrees(turned.motion.angles_rad[:, k]), table[f"isb_{name}_deg"], equal_nan=True)
     # R = Ry(flexion) Rz(deviation) Rx(turning), by another library.

@@ -15,7 +15,7 @@ from tests.ui.hand_fakes import hand_session
 def test_motion_curves_match_session() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(5.0, 6.0)])
     curves, motion = compute_motion_curves(made), made.motion
-    table = {column.name: column.values for column in motion_columns(made, made.motion)}
+    table = motion_columns(made, made.motion)
     tip = curves.joint_mm[:, curves.joint_names.index("TIP3")]
     stored_tip_m = motion.joint_position_m[:, made.header.protocol.markers.index("TIP3")]
     for drawn, stored, name in (
@@ -47,7 +47,7 @@ def test_motion_curves_axes_are_of_hand_in_w0() -> None:
 
 def test_motion_curves_zyz_gives_back_rotation() -> None:
     made = session()
-    table = {column.name: column.values for column in motion_columns(made, made.motion)}
+    table = motion_columns(made, made.motion)
     zyz = np.column_stack([table[f"zyz_{name}_deg"] for name in ("alpha", "beta", "gamma")])
     known = np.isfinite(zyz[:, 0])
     assert known.mean() > 0.8

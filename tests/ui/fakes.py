@@ -720,7 +720,7 @@ def retest_studies() -> list[RetestAnalysis]:
     }  # fmt: skip
     found = {
         key: RetestResult(
-            10, 20, 0.9, (0.7, 0.97), 0.92, (0.74, 0.98), sem, (0.7 * sem, 1.6 * sem), 9.0, mdc,
+            10, 20, 0.9, (0.7, 0.97), 0.92, (0.74, 0.98), sem, (0.7 * sem, 1.6 * sem), mdc,
             (0.7 * mdc, 1.6 * mdc), math.nan, 0.2,
         )
         for key, (sem, mdc) in ends.items()

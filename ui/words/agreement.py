@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 from carpus.ui.kit import numbers
 from carpus.ui.kit.translate import tr, translate_phrase
-from carpus.ui.words.finger_angles import FINGER_ANGLES, find_finger_angle
+from carpus.ui.words.finger_angles import FINGER_ANGLES
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.research.agreement.compare import Comparison
     from carpus.core.research.agreement.statistics import Interval
 
 TOKENS = {"deviation": "deviation", "flexion": "flexion", "pronosupination": "rotation"}
+_BY_JOINT = {angle.joint: angle for angle in FINGER_ANGLES}
 
 
 def angle_name(name: str) -> str:
@@ -24,16 +25,14 @@ def angle_name(name: str) -> str:
     }  # fmt: skip
     if name in wrist:
         return wrist[name]
-    if any(figure.joint == name for figure in FINGER_ANGLES):
-        return find_finger_angle(name).long_name
+    if name in _BY_JOINT:
+        return _BY_JOINT[name].long_name
     return tr("Thumb MCP, abduction–adduction") if name == "MCP1_abduction" else name
 
 
 def angle_token(name: str) -> str:
     """Return the colour of an angle."""
-    return TOKENS.get(name) or (
-        find_finger_angle(name).token if any(one.joint == name for one in FINGER_ANGLES) else "flexion"
-    )
+    return TOKENS.get(name) or (_BY_JOINT[name].token if name in _BY_JOINT else "flexion")
 
 
 def direction_names(name: str) -> tuple[str, str]:

@@ -186,10 +186,7 @@ def _basis(item: Comparison) -> str:
 def _change_sentence(item: Comparison) -> str:
     name = _subject(item) if item.is_joint else terms.movement_long_name(item.after.quantity)
     if item.is_beyond_error:
-        change = difference_words(item.display_difference_deg)
-        if item.is_lower_bound:
-            change = tr("at least {change}").format(change=change)
-        return tr("{name}: {change}.").format(name=name, change=change)
+        return tr("{name}: {change}.").format(name=name, change=_size_of_change(item))
     return tr("{name}: no change beyond measurement error.").format(name=name)
 
 
@@ -211,13 +208,14 @@ def change_line(item: Comparison) -> str:
     """Return ``23° more, MDC 10°``; of an occluded joint at most a lower bound."""
     if item.is_joint and item.verdict == "not_judged":
         return tr("partly occluded, or too few")
-    if item.is_lower_bound:
-        return tr("at least {change}, MDC {limit}").format(
-            change=difference_words(item.display_difference_deg), limit=numbers.format_degrees(item.limit_deg)
-        )
     return tr("{change}, MDC {limit}").format(
-        change=difference_words(item.display_difference_deg), limit=numbers.format_degrees(item.limit_deg)
+        change=_size_of_change(item), limit=numbers.format_degrees(item.limit_deg)
     )
+
+
+def _size_of_change(item: Comparison) -> str:
+    change = difference_words(item.display_difference_deg)
+    return tr("at least {change}").format(change=change) if item.is_lower_bound else change
 
 
 def _day_text(point: ProgressPoint, progress: Progress) -> str:

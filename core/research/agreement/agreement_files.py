@@ -78,18 +78,6 @@ def compare_files(
     return FileComparison(comparison, session, reference_path)
 
 
-def trace_comparison(comparison: FileComparison) -> dict[str, Any]:
-    """Return the provenance of a comparison: that of the session and what it is compared with."""
-    reference = {"file": comparison.reference.name, "sha256": sha256_of_file(comparison.reference)}
-    return build_provenance(comparison.session) | {"reference": reference}
-
-
-def write_comparison(comparison: FileComparison, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
-    """Write the tables into a folder and return their paths; an existing file is not replaced."""
-    provenance = trace_comparison(comparison)
-    return write_tables(comparison.comparison, folder, comparison.stem, provenance, comparison.reference.name, form)
-
-
 COLUMNS = (
     "angle", "count", "independent", "bias_deg", "bias_low_deg", "bias_high_deg", "sd_deg",
     "limit_low_deg", "limit_low_from_deg", "limit_low_to_deg", "limit_high_deg", "limit_high_from_deg",
@@ -109,15 +97,16 @@ def to_row(pairs: AnglePairs) -> dict[str, Any]:
     return dict(zip(COLUMNS, values, strict=True))
 
 
-def to_json(comparison: Comparison, provenance: Mapping[str, Any], reference: str) -> dict[str, Any]:
-    """Return the comparison as an object for JSON."""
+def to_json(found: FileComparison) -> dict[str, Any]:
+    """Return a comparison, with its provenance and that of the reference, as an object for JSON."""
+    comparison = found.comparison
     shift, alignment = comparison.shift, comparison.alignment
     rigid: dict[str, Any] | None = None
     if alignment is not None:
         rigid = {"turn_deg": math.degrees(alignment.rotation_rad), "residual_mm": 1e3 * alignment.residual_m}
         rigid |= {"markers": alignment.markers, "zero": alignment.zero}
     return {
-        "reference": reference,
+        "reference": found.reference.name,
         "reference_kind": comparison.kind,
         "differences": "Carpus less reference",
         "angles": [to_row(pairs) for pairs in comparison.pairs],
@@ -136,19 +125,14 @@ def to_json(comparison: Comparison, provenance: Mapping[str, Any], reference: st
         "overlap_s": comparison.overlap_s,
         "reference_rate_hz": comparison.rate_hz,
         "not_used": comparison.unused,
-        "provenance": provenance,
+        "provenance": build_provenance(found.session)
+        | {"reference": {"file": found.reference.name, "sha256": sha256_of_file(found.reference)}},
     }
 
 
-def write_tables(
-    comparison: Comparison,
-    folder: Path,
-    stem: str,
-    provenance: Mapping[str, Any],
-    reference: str,
-    form: TableDialect = MACHINE_DIALECT,
-) -> list[Path]:
+def write_comparison(found: FileComparison, folder: Path, form: TableDialect = MACHINE_DIALECT) -> list[Path]:
     """Write ``STEM.agreement.csv``, ``.json`` and ``STEM.pairs.csv``; return their paths."""
+    comparison, stem = found.comparison, found.stem
     rows = (
         [*(format_cell(value) for value in to_row(pairs).values()), "; ".join(comparison.angle_remarks(pairs.name))]
         for pairs in comparison.pairs
@@ -160,7 +144,7 @@ def write_tables(
     )
     return [
         write_new_table(folder / f"{stem}.agreement.csv", (*COLUMNS, "remarks"), rows, form),
-        write_new_json(folder / f"{stem}.agreement.json", to_json(comparison, provenance, reference)),
+        write_new_json(folder / f"{stem}.agreement.json", to_json(found)),
         write_new_table(folder / f"{stem}.pairs.csv", ("angle", "time_s", "carpus_deg", "reference_deg"), pairs, form),
     ]
 

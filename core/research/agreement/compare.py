@@ -40,6 +40,8 @@ MAX_SHIFT_S, MAX_DRIFT_PERCENT = 3600.0, 10.0
 """Limits of what a person may enter."""
 MIN_MATCH = 0.5
 """With a lower correlation it is not the same movement."""
+MAX_OPPOSITE_CORRELATION = -0.5
+"""Below it the two have opposite signs, or are different movements."""
 MAX_SCALE_RATIO, MIN_MOTION_SD_RAD = 2.0, math.radians(3.0)
 """Ratio of the standard deviations, of angles that move so much, above which units may differ."""
 MAX_RESIDUAL_M = 0.010
@@ -255,7 +257,7 @@ def comparison_remarks(
             r=format_rounded(one.figures_deg.correlation, 3),
         )
         for one in pairs
-        if one.figures_deg.is_opposite
+        if one.figures_deg.correlation < MAX_OPPOSITE_CORRELATION
     ]
     out += [
         phrase(

@@ -32,27 +32,23 @@ _UNKNOWN: Interval = (math.nan, math.nan)
 class RetestResult:
     """Reliability of one quantity, in its unit, with 95 % intervals.
 
-    Attributes
-    ----------
-    icc, icc_3_1 : ICC(2,1) and ICC(3,1)
-    sem, df : standard error of measurement and its degrees of freedom
-    intra_rater_sem : of placements by one rater; NaN with fewer than two known raters or no repeated placement
-    systematic_change : mean of the last placements less that of the first
+    ``icc`` and ``icc_3_1`` are ICC(2,1) and ICC(3,1); ``sem`` is the standard error of measurement, ``intra_rater_sem``
+    that of placements by one rater (NaN with fewer than two known raters or no repeated placement);
+    ``systematic_change`` is the mean of the last placements less that of the first.
     """
 
     people: int
     readings: int
-    icc: float
-    icc_interval: Interval
-    icc_3_1: float
-    icc_3_1_interval: Interval
-    sem: float
-    sem_interval: Interval
-    df: float
-    mdc95: float
-    mdc95_interval: Interval
-    intra_rater_sem: float
-    systematic_change: float
+    icc: float = math.nan
+    icc_interval: Interval = _UNKNOWN
+    icc_3_1: float = math.nan
+    icc_3_1_interval: Interval = _UNKNOWN
+    sem: float = math.nan
+    sem_interval: Interval = _UNKNOWN
+    mdc95: float = math.nan
+    mdc95_interval: Interval = _UNKNOWN
+    intra_rater_sem: float = math.nan
+    systematic_change: float = math.nan
 
 
 def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequence[str]] = ()) -> RetestResult:
@@ -73,8 +69,7 @@ def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequenc
     values = [np.array([value for value, _ in one]) for one in kept]
     n, total = len(values), sum(map(len, values))
     if n < 2:
-        nan = math.nan
-        return RetestResult(n, total, nan, _UNKNOWN, nan, _UNKNOWN, nan, _UNKNOWN, 0.0, nan, _UNKNOWN, nan, nan)
+        return RetestResult(n, total)
     within = sum(float(((one - one.mean()) ** 2).sum()) for one in values)
     df = float(total - n)
     variance = within / df
@@ -84,13 +79,13 @@ def compute_retest(readings: Sequence[Sequence[float]], raters: Sequence[Sequenc
     sem = math.sqrt(variance)
     quantiles = (float(scipy.special.chdtri(df, 1.0 - share)) for share in (0.975, 0.025))
     low, high = (math.sqrt(df * variance / quantile) for quantile in quantiles)
-    interval = (low, high)
     table = np.array([one[:each] for one in values])
-    mdc95_interval = (MDC95_FACTOR * interval[0], MDC95_FACTOR * interval[1])
+    mdc95_interval = (MDC95_FACTOR * low, MDC95_FACTOR * high)
     step = float(np.mean([one[-1] - one[0] for one in values]))
-    intra, mdc95 = _intra_rater_sem(kept), MDC95_FACTOR * sem
-    icc, icc_3 = icc_2_1(table), icc_3_1(table)
-    return RetestResult(n, total, *icc, *icc_3, sem, interval, df, mdc95, mdc95_interval, intra, step)
+    return RetestResult(
+        n, total, *icc_2_1(table), *icc_3_1(table), sem, (low, high), MDC95_FACTOR * sem, mdc95_interval,
+        _intra_rater_sem(kept), step,
+    )  # fmt: skip
 
 
 def _degrees_of_freedom(table: FloatArray, max_df: float) -> float:

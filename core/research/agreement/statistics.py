@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -19,8 +19,6 @@ from carpus.core.model.types import FloatArray
 MIN_PAIRS = 3
 """Fewer pairs, or people, give no result."""
 MIN_PAIRS_TO_JUDGE = 10
-MAX_OPPOSITE_CORRELATION = -0.5
-"""Below it the two have opposite signs, or are different movements."""
 
 Interval = tuple[float, float]
 _UNKNOWN: Interval = (math.nan, math.nan)
@@ -44,26 +42,21 @@ class Agreement:
     """
 
     count: int
-    effective_count: float
-    bias: float
-    bias_interval: Interval
-    sd: float
-    limits: Interval
-    lower_interval: Interval
-    upper_interval: Interval
-    rmse: float
-    largest_difference: float
-    correlation: float
-    icc: float
-    icc_interval: Interval
-    icc_3_1: float
-    icc_3_1_interval: Interval
-    cmc: float
-
-    @property
-    def is_opposite(self) -> bool:
-        """True if one falls where the other rises."""
-        return self.correlation < MAX_OPPOSITE_CORRELATION
+    effective_count: float = math.nan
+    bias: float = math.nan
+    bias_interval: Interval = _UNKNOWN
+    sd: float = math.nan
+    limits: Interval = _UNKNOWN
+    lower_interval: Interval = _UNKNOWN
+    upper_interval: Interval = _UNKNOWN
+    rmse: float = math.nan
+    largest_difference: float = math.nan
+    correlation: float = math.nan
+    icc: float = math.nan
+    icc_interval: Interval = _UNKNOWN
+    icc_3_1: float = math.nan
+    icc_3_1_interval: Interval = _UNKNOWN
+    cmc: float = math.nan
 
 
 def compute_agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True) -> Agreement:
@@ -72,7 +65,7 @@ def compute_agreement(measured: FloatArray, reference: FloatArray, waveform: boo
     a, b = measured[known], reference[known]
     n = len(a)
     if n < MIN_PAIRS:
-        return replace(NO_AGREEMENT, count=n, effective_count=float(n))
+        return Agreement(n, float(n))
     difference = a - b
     bias, sd = float(difference.mean()), float(difference.std(ddof=1))
     worth = effective_sample_size(difference) if waveform else float(n)
@@ -100,20 +93,13 @@ def compute_agreement(measured: FloatArray, reference: FloatArray, waveform: boo
     )
 
 
-NO_AGREEMENT = Agreement(
-    0, 0.0, math.nan, _UNKNOWN, math.nan, _UNKNOWN, _UNKNOWN, _UNKNOWN, math.nan, math.nan, math.nan,
-    math.nan, _UNKNOWN, math.nan, _UNKNOWN, math.nan,
-)  # fmt: skip
-"""Agreement of too few pairs."""
-
-
 @dataclass(frozen=True, slots=True)
 class VarianceComponents:
     """Variance of the differences between people and within one; NaN if nobody has two pairs."""
 
     people: int
-    sd_between: float
-    sd_within: float
+    sd_between: float = math.nan
+    sd_within: float = math.nan
 
 
 def min_pairs_per_person(*, waveform: bool) -> int:
@@ -136,9 +122,7 @@ def compute_pooled_agreement(
     people, differences = len(pairs), [a - b for a, b in pairs]
     count = sum(map(len, differences))
     if people < MIN_PAIRS:
-        return replace(NO_AGREEMENT, count=count, effective_count=math.nan), VarianceComponents(
-            people, math.nan, math.nan
-        )
+        return Agreement(count), VarianceComponents(people)
     worth = np.array([effective_sample_size(d) if waveform else float(len(d)) for d in differences])
     means = np.array([d.mean() for d in differences])
     # What is left about a person's mean is of fewer independent values than there are pictures.
@@ -163,9 +147,8 @@ def compute_pooled_agreement(
     low, high = bias - z * sd, bias + z * sd
     everything = np.concatenate(differences)
     a, b = (np.concatenate(side) for side in zip(*pairs, strict=True))
-    found = replace(
-        NO_AGREEMENT,
-        count=count,
+    found = Agreement(
+        count,
         effective_count=float(worth.sum()),
         bias=bias,
         bias_interval=(bias - half, bias + half),
@@ -178,7 +161,7 @@ def compute_pooled_agreement(
         correlation=float(np.corrcoef(a, b)[0, 1]) if a.std() > 0.0 and b.std() > 0.0 else math.nan,
     )
     if not df > 0.0:
-        return found, VarianceComponents(people, math.nan, math.nan)
+        return found, VarianceComponents(people)
     between = max(of_means - float((1.0 / worth).mean()) * within, 0.0)
     return found, VarianceComponents(people, math.sqrt(between), math.sqrt(within))
 

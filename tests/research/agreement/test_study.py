@@ -15,7 +15,7 @@ import pytest
 
 from carpus.core.research.agreement.agreement_files import compare_files
 from carpus.core.research.agreement.compare import AnglePairs
-from carpus.core.research.agreement.statistics import NO_AGREEMENT, VarianceComponents
+from carpus.core.research.agreement.statistics import Agreement, VarianceComponents
 from carpus.core.research.agreement.study import PooledAngle, _pooling_remarks
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
@@ -133,7 +133,7 @@ def test_study_table_invalid_is_refused(tmp_path: Path, command: Command) -> Non
 
 
 def test_study_names_people_outside_the_pooled_values() -> None:
-    nothing = AnglePairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), NO_AGREEMENT)
+    nothing = AnglePairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), Agreement(0))
     few = PooledAngle(nothing, VarianceComponents(2, math.nan, math.nan), 3, ("anna", "bert"), 3)
     assert "anna, bert" in _pooling_remarks(few)[0]
     assert "too few" in _pooling_remarks(few)[1]
