@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -83,10 +84,11 @@ def test_linux_encryption_network_mount_is_unknown(system: System) -> None:
         assert system.state() == "unknown", kind
 
 
-def test_encryption_of_bitlocker() -> None:
+def test_encryption_of_bitlocker(monkeypatch: pytest.MonkeyPatch) -> None:
     answers = {"1\r\n": "encrypted", "2\n": "plain", "3\n": "plain", "6\n": "unknown", "": "unknown"}
     for said, state in answers.items():
-        assert detect_bitlocker(Path("C:/data"), lambda _, said=said: said) == state  # type: ignore[misc]
+        monkeypatch.setattr(subprocess, "run", lambda *_, said=said, **__: SimpleNamespace(stdout=said))
+        assert detect_bitlocker(Path("C:/data")) == state
 
 
 def test_detect_encryption_on_this_computer_raises_nothing(tmp_path: Path) -> None:

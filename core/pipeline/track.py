@@ -46,7 +46,7 @@ from carpus.core.model.types import (
 )
 from carpus.core.pipeline.live import Listener
 from carpus.core.platform.provenance import sha256_of_file, sha256_of_recording, sha256_of_settings, source_revision
-from carpus.core.session.plausibility import check_calibration
+from carpus.core.session.checks import check_calibration
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
 from carpus.core.session.values import SET_UP, Event, Session, new_header, stack_states
 from carpus.core.session.writer import SessionWriter

@@ -87,7 +87,6 @@ class ChildProcess:
 
     @property
     def pid(self) -> int:
-        """Process id."""
         pid: int = self._process.pid
         return pid
 
@@ -106,12 +105,10 @@ class ChildProcess:
         self._process.join(KILL_TIMEOUT_S)
 
     def end(self, grace_s: float = 0.0) -> None:
-        """Kill the process and close the pipe."""
         self.kill(grace_s)
         self.link.close()
 
     def describe_exit(self, patience_s: float = KILL_TIMEOUT_S) -> str:
-        """Return how the process ended."""
         self._process.join(patience_s)
         code = self._process.exitcode
         if code is None or code >= 0:

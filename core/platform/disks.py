@@ -6,7 +6,6 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -77,13 +76,13 @@ def detect_linux_encryption(folder: Path, root: Path = Path("/")) -> EncryptionS
     return _detect_device_encryption(device.resolve()) if source.startswith("/dev/") else "unknown"
 
 
-def detect_bitlocker(folder: Path, run_command: Callable[[Sequence[str]], str] | None = None) -> EncryptionState:
+def detect_bitlocker(folder: Path) -> EncryptionState:
     """Detect BitLocker by its public state: 1 is on, 3 is being encrypted, 5 is on with an unprotected key.
 
     Raises OSError or SubprocessError.
     """
     command = ["powershell", "-NoProfile", "-Command", _BITLOCKER.format(drive=folder.drive)]
-    said = (run_command or _run_command)(command).strip()
+    said = subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT_S).stdout.strip()
     return "encrypted" if said == "1" else "plain" if said in ("2", "3", "4", "5") else "unknown"
 
 
@@ -125,10 +124,6 @@ def _is_encrypted_folder(folder: Path) -> bool:
     return bool(int.from_bytes(flags[:4], sys.byteorder) & _ENCRYPTED_FLAG)
 
 
-def _run_command(command: Sequence[str]) -> str:
-    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=TIMEOUT_S).stdout
-
-
 SYSTEM_DEVICES = Path("/sys/dev/block")
 
 
@@ -153,7 +148,6 @@ def _find_disks(device: int, devices: Path) -> set[str]:
 
 
 def _physical_disks(block: Path) -> set[str]:
-    """Return the disks that a block device is made of."""
     slaves = sorted((block / "slaves").glob("*"))
     if slaves:
         return {disk for slave in slaves for disk in _physical_disks(slave.resolve())}

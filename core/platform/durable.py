@@ -170,6 +170,23 @@ def lock_file(file: IO[bytes]) -> None:
         pass  # a disk without locks
 
 
+@contextlib.contextmanager
+def exclusive_lock(path: Path, busy: Callable[[str], CarpusFault], timeout_s: float = 0.0) -> Iterator[None]:
+    """Hold a lock file, which stays; raises ``busy`` if another program holds it until a timeout, and write faults."""
+    make_private_file(path)
+    end_s = time.monotonic() + timeout_s
+    with path.open("r+b") as file:
+        while True:
+            try:
+                lock_file(file)
+                break
+            except OSError as cause:
+                if time.monotonic() >= end_s:
+                    raise busy(cause.strerror or "") from cause
+                time.sleep(0.02)
+        yield
+
+
 def is_being_written(path: Path) -> bool:
     """Return whether any process has the HDF5 file open for writing."""
     if sys.platform == "win32":

@@ -9,7 +9,7 @@ import os
 import shutil
 import time
 from collections.abc import Callable, Collection
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -38,7 +38,7 @@ from carpus.core.records.session_setup import MARKERS_SUFFIX
 from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.session import reader
 from carpus.core.session.journal import SUFFIX as JOURNAL_SUFFIX
-from carpus.core.session.journal import JournalReader, lock_journal, unpack_arrays
+from carpus.core.session.journal import JournalReader, unpack_arrays
 from carpus.core.session.reader import read_outline
 from carpus.core.session.rewriting import find_part_target
 from carpus.core.session.writer import SessionWriter
@@ -180,14 +180,15 @@ def _recover_journal(path: Path, when: str, faults: list[CarpusFault]) -> Path |
 
     A journal with damaged bytes holds more than was read: it is kept under another name.
     """
-    own = lock_journal(path)
-    if own is None:
-        return path
-    with own:
+    with path.open("r+b") as own:
+        try:
+            lock_file(own)
+        except OSError:  # another program writes it
+            return path
         for name in (path.with_suffix(".h5"), find_free_name(path.with_suffix(".h5"))):
             remove_leftovers(name, min_age_s=0.0)
         target = write_session(path, when)
-        with JournalReader(path) as journal:
+        with closing(JournalReader(path)) as journal:
             is_damaged = journal.is_damaged()
     if is_damaged and target is None:
         raise errors.SessionUnreadable(path, phrase("damaged"))

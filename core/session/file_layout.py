@@ -48,7 +48,10 @@ def build_empty_session(header: SessionHeader, camera: Camera, calibration: Cali
         for name, value in zip(schema.CAMERA_ATTRIBUTES, entries.values(), strict=True):
             group.attrs[name] = value
         write_calibration(file, layout, calibration)
-        create_growing_datasets(file, layout)
+        for field in filter(layout.has, schema.ROW_FIELDS):
+            create_dataset(file, field, layout)
+        for group_name, names in layout.group_names().items():
+            file[group_name].attrs["names"] = names
         file.flush()
         return bytes(file.id.get_file_image())
 
@@ -73,16 +76,6 @@ def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibra
     values = (verdict.hand_length_mm * 1e-3, np.radians(verdict.tilt_deg), verdict.distance_m, verdict.frames_used)
     for name, value in zip(schema.VERDICT_ATTRIBUTES, (*values, json.dumps(known), straight), strict=True):
         file["/calibration"].attrs[name] = value
-
-
-def create_growing_datasets(file: h5py.File, layout: TableLayout) -> None:
-    """Create every dataset of rows, still empty."""
-    detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
-    for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS):
-        if layout.has(field):
-            create_dataset(file, field, layout)
-    for group, names in layout.group_names().items():
-        file[group].attrs["names"] = names
 
 
 def create_smoother_datasets(file: h5py.File, layout: TableLayout) -> None:

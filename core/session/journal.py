@@ -23,8 +23,6 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from io import FileIO
 from pathlib import Path
-from types import TracebackType
-from typing import BinaryIO, Self
 
 import h5py
 import numpy as np
@@ -74,7 +72,7 @@ class RecordingJournal(FileWriter):
             It could not be created; nothing is left.
         """
         self.path = path
-        self.rows = self.smoother_row_count = 0
+        self.smoother_row_count = 0
         self._layout = TableLayout(header.protocol, header.joint_names)
         self._clock, self._synced_at_s = clock, clock()
         self._last_time_s = -np.inf
@@ -107,11 +105,9 @@ class RecordingJournal(FileWriter):
             raise TimesUnordered(self.path, phrase("{timestamp_s} s after {last_time_s} s", **times))
         self._last_time_s = tracked.timestamp_s
         self._pending_frames.append(tracked)
-        self.rows += 1
         self._write_when_due()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
-        """Add an event at a time of the recording."""
         self._pending_records.append((b"ROWS", pack_arrays(build_event_blocks(Event(time_s, kind, text)))))
         self._write_when_due()
 
@@ -121,7 +117,6 @@ class RecordingJournal(FileWriter):
         self.smoother_row_count += len(motion.position_m)
 
     def flush(self) -> None:
-        """Write everything to the disk."""
         if self._fault is not None:
             raise self._fault
         if self._pending_frames:
@@ -245,12 +240,6 @@ class JournalReader:
         """Close the file; may be called twice."""
         self._file.close()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
-        self.close()
-
 
 def pack_arrays(blocks: Blocks) -> bytes:
     """Return arrays by path as the content of a record."""
@@ -268,14 +257,3 @@ def unpack_arrays(content: bytes) -> Blocks:
         blocks[path] = np.frombuffer(content, dtype, count, position).reshape(shape)
         position += blocks[path].nbytes
     return blocks
-
-
-def lock_journal(path: Path) -> BinaryIO | None:
-    """Open and lock a journal; None if another program writes it."""
-    file = path.open("r+b")
-    try:
-        lock_file(file)
-    except OSError:
-        file.close()
-        return None
-    return file

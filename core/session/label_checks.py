@@ -77,18 +77,9 @@ CORRECTED = "corrected"
 
 @dataclass(frozen=True, slots=True)
 class CorrectionSummary:
-    """Summary of a session's corrections.
+    """Summary of a session's corrections: when it was tracked again, which markers were corrected, and by whom.
 
-    Attributes
-    ----------
-    corrected_at : datetime
-        When the session was tracked again.
-    first_corrected_s : float
-        Time of the first corrected frame since the start.
-    markers : tuple of str
-        Corrected markers.
-    initials : str
-        Who corrected them, empty if unknown.
+    ``first_corrected_s`` is the time of the first corrected frame since the start.
     """
 
     corrected_at: datetime

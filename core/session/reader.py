@@ -15,11 +15,12 @@ import pickle
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from importlib import import_module
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault, SessionMissing, SessionUnreadable
@@ -42,62 +43,6 @@ MAX_MEMORY_BYTES = 6_000_000_000
 RAW_CHUNK_BYTES = 1 << 24
 _NUMPY_NAMES = ("ndarray", "dtype", "_reconstruct", "_frombuffer", "scalar")
 """Answers consist of these and of this program's classes; a process taken over by a file could send others."""
-
-
-def read_session(path: Path) -> Session:
-    """Read a session; raises :class:`SessionUnreadable`.
-
-    Detections and images are read by :func:`read_detections` and :func:`read_raw`.
-    """
-    return cast(Session, _request("session_file:read_session", path))
-
-
-def read_outline(path: Path) -> SessionOutline:
-    """Read header, length and state of a session, without its data."""
-    return cast(SessionOutline, _request("session_file:read_outline", path))
-
-
-def read_detections(path: Path) -> DetectionTable:
-    """Read the detections of every frame of a session."""
-    return cast(DetectionTable, _request("session_file:read_detections", path))
-
-
-def has_raw(path: Path) -> bool:
-    """Return whether the session has stored images."""
-    return bool(_request("session_file:has_raw", path))
-
-
-def raw_depth_unit_m(path: Path) -> float:
-    """Return metres per count of the stored depth images."""
-    return float(_request("session_file:raw_depth_unit_m", path))
-
-
-def read_raw(path: Path) -> Iterator[EncodedImages]:
-    """Yield the stored images, frame by frame."""
-    row = 0
-    while some := cast("list[EncodedImages]", _request("session_file:read_raw_chunk", path, row, RAW_CHUNK_BYTES)):
-        yield from some
-        row += len(some)
-
-
-def read_raw_color(path: Path, row: int) -> bytes:
-    """Return the stored colour image of a row; empty if there is none."""
-    return cast(bytes, _request("session_file:read_raw_color", path, row))
-
-
-def verify(path: Path) -> VerificationResult:
-    """Verify that a session is complete and unchanged; see :func:`core.session.session_file.verify`."""
-    return cast(VerificationResult, _request("session_file:verify", path))
-
-
-def finish_part(part: Path, when: str) -> Path | None:
-    """Finish an interrupted part file; see :func:`core.session.rewriting.finish_part`."""
-    return cast("Path | None", _request("rewriting:finish_part", part, when))
-
-
-def rewrite_session(path: Path, target: Path, **attributes: str) -> None:
-    """Write a session again with changed attributes; see :func:`core.session.rewriting.rewrite_session`."""
-    _request("rewriting:rewrite_session", path, target, attributes)
 
 
 class ReadingProcess:
@@ -185,6 +130,37 @@ def _request(name: str, path: Path, *arguments: object) -> Any:
     if not is_file:  # neither a folder nor a pipe is handed to HDF5, which would wait for the pipe
         raise SessionUnreadable(path, phrase("a folder") if is_folder else phrase("not a file"))
     return READING_PROCESS.request(f"carpus.core.session.{name}", path, *arguments)
+
+
+read_session: Callable[[Path], Session] = partial(_request, "session_file:read_session")
+"""Read a session; raises :class:`SessionUnreadable`. Detections and images are read by the functions below."""
+read_outline: Callable[[Path], SessionOutline] = partial(_request, "session_file:read_outline")
+"""Read header, length and state of a session, without its data."""
+read_detections: Callable[[Path], DetectionTable] = partial(_request, "session_file:read_detections")
+"""Read the detections of every frame of a session."""
+has_raw: Callable[[Path], bool] = partial(_request, "session_file:has_raw")
+"""Return whether the session has stored images."""
+raw_depth_unit_m: Callable[[Path], float] = partial(_request, "session_file:raw_depth_unit_m")
+"""Return metres per count of the stored depth images."""
+read_raw_color: Callable[[Path, int], bytes] = partial(_request, "session_file:read_raw_color")
+"""Return the stored colour image of a row; empty if there is none."""
+verify: Callable[[Path], VerificationResult] = partial(_request, "session_file:verify")
+"""Verify that a session is complete and unchanged."""
+finish_part: Callable[[Path, str], Path | None] = partial(_request, "rewriting:finish_part")
+"""Finish an interrupted part file, at a time (ISO 8601)."""
+
+
+def read_raw(path: Path) -> Iterator[EncodedImages]:
+    """Yield the stored images, frame by frame."""
+    row = 0
+    while some := _request("session_file:read_raw_chunk", path, row, RAW_CHUNK_BYTES):
+        yield from some
+        row += len(some)
+
+
+def rewrite_session(path: Path, target: Path, **attributes: str) -> None:
+    """Write a session again with changed attributes; see :func:`core.session.rewriting.rewrite_session`."""
+    _request("rewriting:rewrite_session", path, target, attributes)
 
 
 def _can_fork() -> bool:

@@ -21,9 +21,8 @@ from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import find_free_name, publish, temporary_path, write_fault
 from carpus.core.session import schema
-from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
+from carpus.core.session.checks import CHECKSUM_ATTRIBUTE, compute_checksum, count_stored_rows
 from carpus.core.session.file_layout import create_dataset
-from carpus.core.session.plausibility import count_stored_rows
 from carpus.core.session.schema import Field
 from carpus.core.session.session_file import SessionFile, open_session, verify
 
@@ -218,15 +217,10 @@ def _read_rows(dataset: h5py.Dataset, end: int, first: int = 0) -> NDArray[Any]:
         last = (end - 1) // step * step if step else 0
         if not step or not dataset.fletcher32 or last < first or dataset.dtype.kind == "O":
             raise
-        torn = _read_chunk(dataset, last)[: end - last]
+        _, stored = dataset.id.read_direct_chunk((last, *(0 for _ in dataset.shape[1:])))  # whatever its checksum
+        count = math.prod(dataset.chunks)
+        torn = np.frombuffer(stored, dataset.dtype, count).reshape(dataset.chunks)[: end - last]
         return np.concatenate((np.asarray(dataset[first:last]), torn)) if last > first else torn
-
-
-def _read_chunk(dataset: h5py.Dataset, begin: int) -> NDArray[Any]:
-    """Return the chunk that starts at a row, whatever its checksum."""
-    _, stored = dataset.id.read_direct_chunk((begin, *(0 for _ in dataset.shape[1:])))
-    size = math.prod(dataset.chunks) * dataset.dtype.itemsize
-    return np.frombuffer(stored, dataset.dtype, size // dataset.dtype.itemsize).reshape(dataset.chunks)
 
 
 def _count_leading(good: np.ndarray) -> int:

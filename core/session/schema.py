@@ -5,7 +5,7 @@ A change of meaning raises :data:`FORMAT_VERSION`; a field added later states it
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -136,7 +136,6 @@ class TableLayout:
     joint_names: tuple[str, ...]
 
     def names(self, axis: str) -> tuple[str, ...]:
-        """Return the names along an axis."""
         by_axis = {
             "M": self.protocol.markers,
             "J": self.joint_names,
@@ -323,31 +322,11 @@ REPETITION_DTYPE = np.dtype([(column.name, column.dtype) for column in REPETITIO
 # fmt: on
 
 SMOOTHED_FIELDS = tuple(
-    Field(
-        "/smoothed" + field.path,
-        field.attribute,
-        field.dtype,
-        field.shape,
-        field.unit,
-        field.description + "; by the smoother",
-        optional=True,
-        fingers_only=field.fingers_only,
-        since=field.since,
-    )
+    replace(field, path=f"/smoothed{field.path}", description=f"{field.description}; by the smoother", optional=True)
     for field in MOTION_FIELDS
 )
 
-ALL_FIELDS = (
-    *CALIBRATION_FIELDS,
-    *FRAME_FIELDS,
-    DETECTION_FRAME,
-    *DETECTION_FIELDS,
-    DETECTION_COUNT,
-    *SURFACE_FIELDS,
-    *FINGER_FIELDS,
-    *EVENT_FIELDS,
-    REPETITIONS,
-    *SMOOTHED_FIELDS,
-    *RAW_STREAMS,
-    *RAW_ENDS,
-)
+_DETECTIONS = (DETECTION_FRAME, *DETECTION_FIELDS, DETECTION_COUNT)
+ROW_FIELDS = (*FRAME_FIELDS, *_DETECTIONS, *SURFACE_FIELDS, *FINGER_FIELDS, *EVENT_FIELDS)
+"""Datasets of a new file that grow with its frames and events."""
+ALL_FIELDS = (*CALIBRATION_FIELDS, *ROW_FIELDS, REPETITIONS, *SMOOTHED_FIELDS, *RAW_STREAMS, *RAW_ENDS)

@@ -25,17 +25,18 @@ from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.model.phrase import phrase
 from carpus.core.model.types import Detections
 from carpus.core.session import schema
-from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
-from carpus.core.session.plausibility import (
+from carpus.core.session.checks import (
+    CHECKSUM_ATTRIBUTE,
     MAX_DURATION_S,
     ContentError,
     check_detections,
     check_header,
     check_structure,
     check_values,
+    compute_checksum,
     damage_error,
 )
-from carpus.core.session.schema import Field, TableLayout
+from carpus.core.session.schema import Column, Field, TableLayout
 from carpus.core.session.values import (
     DetectionTable,
     EncodedImages,
@@ -133,12 +134,7 @@ def read_raw_chunk(path: Path, first_row: int, max_bytes: int) -> Sequence[Encod
 
 def read_raw_color(path: Path, row: int) -> bytes:
     """Return the stored colour image of a row; empty if there is none."""
-    with open_session(path) as file:
-        color_end, color = SessionFile(path, file).read_raw_ends(0), file[schema.RAW_STREAMS[0].path]
-        if not 0 <= row < len(color_end):
-            return b""
-        start = int(color_end[row - 1]) if row else 0
-        return bytes(color[start : int(color_end[row])].tobytes())
+    return next((one.color for one in read_raw_chunk(path, row, 0)), b"")
 
 
 @contextlib.contextmanager
@@ -230,19 +226,14 @@ class SessionFile:
         dtype = np.dtype([(column.name, column.dtype) for column in columns])
         if table.dtype != dtype or table.ndim != 1 or not missing <= {"at_least"}:  # which is from later
             raise damage_error(path)
-        names = [column.attribute for column in columns]
-        rows = ({"at_least": False} | dict(zip(names, row, strict=True)) for row in table[()].tolist())
-        return Repetitions(
-            str(table.attrs[schema.REPETITION_ANGLE]),
-            tuple(
-                RepetitionRow(
-                    **row
-                    | {name: bool(row[name]) for name in ("at_least", "counted")}
-                    | {"reason": row["reason"].decode("utf-8", "replace")}
-                )
-                for row in rows
-            ),
-        )
+        rows = [
+            RepetitionRow(
+                **{"at_least": False}
+                | {one.attribute: _to_python(one, value) for one, value in zip(columns, row, strict=True)}
+            )
+            for row in table[()].tolist()
+        ]
+        return Repetitions(str(table.attrs[schema.REPETITION_ANGLE]), tuple(rows))
 
     def read_outline(self) -> SessionOutline:
         frames = self._rows["N"]
@@ -349,7 +340,7 @@ class SessionFile:
         model = str(attributes.get("distortion_model", "plumb_bob"))
         lens = tuple(float(value) for value in attributes["distortion"])
         known = next(
-            (one for one, count in DISTORTION_COEFFICIENT_COUNTS.items() if one == model and count == len(lens)), None
+            (one for one, count in DISTORTION_COEFFICIENT_COUNTS.items() if (one, count) == (model, len(lens))), None
         )
         if known is None:
             raise ContentError(phrase("distortion {model} with {count} coefficients", model=model, count=len(lens)))
@@ -377,9 +368,8 @@ class SessionFile:
         clicks_px, residual_m = arrays.pop("clicks_px"), arrays.pop("residual_m")
         surface = DorsalSurface.from_table(arrays.pop("surface"))
         attributes = self._file["/calibration"].attrs
-        findings = []
-        for fact in json.loads(attributes.get("findings", "[]")):
-            findings.append(CalibrationFinding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
+        facts = json.loads(attributes.get("findings", "[]"))
+        findings = [CalibrationFinding(**(fact | {"markers": tuple(fact.get("markers", ()))})) for fact in facts]
         unknown = float("nan")
         verdict = Verdict(
             residual_mm=residual_m * 1e3,
@@ -392,3 +382,9 @@ class SessionFile:
         straight = tuple(map(bool, attributes.get("straight_fingers", ())))
         clicks = Clicks(self._header.hand, self._header.protocol, clicks_px, straight)
         return Calibration(clicks=clicks, verdict=verdict, surface=surface, **arrays)
+
+
+def _to_python(column: Column, value: Any) -> Any:
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    return bool(value) if column.dtype == "u1" else value

@@ -27,7 +27,7 @@ from carpus.core.platform.durable import (
     write_fault,
 )
 from carpus.core.session import schema
-from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
+from carpus.core.session.checks import CHECKSUM_ATTRIBUTE, compute_checksum, to_bytes
 from carpus.core.session.file_layout import (
     ROWS_AT_ONCE,
     Blocks,
@@ -84,11 +84,9 @@ class SessionWriter(FileWriter):
 
     @classmethod
     def create(cls, path: Path, header: SessionHeader, camera: Camera, calibration: Calibration) -> Self:
-        """Create a session that will become ``path``."""
         return cls(path, build_empty_session(header, camera, calibration))
 
     def __len__(self) -> int:
-        """Return the number of frames appended so far."""
         return self._rows.get(_TIMES, 0) + len(self._pending_frames)
 
     def append(self, tracked: TrackedFrame) -> None:
@@ -101,7 +99,6 @@ class SessionWriter(FileWriter):
             self.flush()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
-        """Add an event at a time of the recording."""
         self.add_blocks(build_event_blocks(Event(time_s, kind, text)))
 
     def add_blocks(self, blocks: Blocks) -> None:
@@ -130,7 +127,6 @@ class SessionWriter(FileWriter):
 
     @property
     def smoother_row_count(self) -> int:
-        """Number of frames with a smoother's result."""
         return self._rows.get(schema.SMOOTHED_FIELDS[0].path, 0)
 
     def drop_motion(self) -> None:
@@ -154,7 +150,6 @@ class SessionWriter(FileWriter):
             create_repetitions(self._file, self._layout, repetitions)
 
     def flush(self) -> None:
-        """Write everything to the file."""
         if self._pending_frames:
             frames, self._pending_frames = self._pending_frames, []
             self.add_blocks(build_frame_blocks(self._layout, frames))

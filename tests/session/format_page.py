@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from carpus.core.session import schema
-from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE
+from carpus.core.session.checks import CHECKSUM_ATTRIBUTE
 from carpus.core.session.schema import Field
 
 _HEAD = f"""\

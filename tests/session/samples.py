@@ -16,7 +16,7 @@ from carpus.core.calibration.result import Calibration, CalibrationFinding, Clic
 from carpus.core.model.camera import Camera
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.model.types import Detections, KinematicState, TrackedFrame, TrackStatus
-from carpus.core.session.checksum import CHECKSUM_ATTRIBUTE, compute_checksum
+from carpus.core.session.checks import CHECKSUM_ATTRIBUTE, compute_checksum
 from carpus.core.session.file_layout import create_dataset
 from carpus.core.session.journal import RecordingJournal
 from carpus.core.session.schema import RAW_DEPTH_UNIT, RAW_ENDS, RAW_STREAMS, TableLayout

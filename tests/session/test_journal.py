@@ -6,6 +6,7 @@ import errno
 import os
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ BATCH, BATCHES = 5, 6
 
 
 def store_rows(path: Path) -> list[Blocks]:
-    with JournalReader(path) as journal:
+    with closing(JournalReader(path)) as journal:
         return [unpack_arrays(content) for kind, content in journal.read() if kind == b"ROWS"]
 
 
