@@ -119,10 +119,10 @@ def read_comment(path: Path) -> str:
     folder = find_data_folder(path)
     if folder is None:
         return ""
-    from carpus.core.records.session_records import current_comment, read_comments
+    from carpus.core.records.session_records import read_current_comment
 
     with open_store(folder, read_only=True) as store:
-        return current_comment(read_comments(store, read_outline(path).header.session_id))
+        return read_current_comment(store, read_outline(path).header.session_id)
 
 
 def read_report_form(folder: Path) -> ReportForm:

@@ -20,14 +20,14 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from carpus.core.model import errors
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import (
     TEMPORARY,
+    exclusive_lock,
     find_free_name,
-    lock_file,
     make_private_folder,
     open_private,
     replace_text,
@@ -37,7 +37,7 @@ from carpus.core.platform.durable import (
 from carpus.core.platform.version import __version__
 from carpus.core.records.database import STORE_FILE, copy_to_memory
 from carpus.core.records.session_list import PENDING_COPY_SUFFIX
-from carpus.core.records.store import SESSIONS_FOLDER, require_store
+from carpus.core.records.store import SESSIONS_FOLDER
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
@@ -119,13 +119,13 @@ def create_backup(
     BackupIncomplete
         A file cannot be read, or a listed session has no file; all else is in the backup.
     """
-    data, there = data_folder.resolve(), _resolve_links(backup_folder)
+    data, there = data_folder.resolve(), Path(os.path.realpath(backup_folder))
     if data == there or data in there.parents or there in data.parents:
         raise errors.BackupFolderUnsuited(backup_folder, phrase("inside the data folder, or containing it"))
     sources = collect_sources(data_folder, backup_folder, settings_folder, sessions_folder, copy_store)
     for folder in (backup_folder, backup_folder / OBJECTS, backup_folder / BACKUPS):
         make_private_folder(folder)
-    with _exclusive_lock(backup_folder):
+    with _lock(backup_folder):
         return _write_backup(data_folder, sources, backup_folder, now or datetime.now().astimezone(), progress)
 
 
@@ -143,8 +143,8 @@ def _write_backup(
         try:
             files.append(_back_up_file(path, source, backup_folder, known.get(path)))
             of[path] = source
-        except BackupSourceError as fault:
-            if not isinstance(fault.__cause__, FileNotFoundError):  # else taken away meanwhile
+        except (BackupSourceError, OSError) as fault:
+            if not isinstance(fault.__cause__ or fault, FileNotFoundError):  # else taken away meanwhile
                 lacking.append(path)
         done += size
         progress(done, total)
@@ -164,7 +164,19 @@ def _write_backup(
         backup_folder / BACKUPS / f"{when:%Y-%m-%dT%H%M%S}.json"
     ).stem  # two of one second are two all the same
     made = Backup(name, when, tuple(files), len(lacking), __version__, str(data_folder.absolute()))
-    replace_text(backup_folder / BACKUPS / f"{made.name}.json", json.dumps(backup_to_dict(made), indent=1))
+    content = {
+        "format": FORMAT,
+        "format_version": FORMAT_VERSION,
+        "made": when.isoformat(),
+        "software_version": made.software_version,
+        "data_folder": made.data_folder,
+        "sessions": made.session_count,
+        "size_bytes": made.size_bytes,
+        "running": 0,  # Carpus 0.2.0 asks for it
+        "lacking": made.missing_count,
+        "files": [[one.path, one.sha256, one.size, one.modified_ns] for one in files],
+    }
+    replace_text(backup_folder / BACKUPS / f"{name}.json", json.dumps(content, indent=1))
     if lacking:
         raise errors.BackupIncomplete(lacking[0], str(len(lacking)))
     return made
@@ -182,11 +194,11 @@ def collect_sources(
     Raises :class:`FolderMissing`, :class:`DataFolderMissing`, :class:`PatientListUnreadable` and
     :class:`BackupFolderUnsuited`.
     """
-    if copy_store is None and not (data_folder / SESSIONS_FOLDER).exists():
-        require_store(data_folder)
+    if copy_store is None and not any((data_folder / one).exists() for one in (SESSIONS_FOLDER, STORE_FILE)):
+        raise errors.DataFolderMissing(data_folder) if data_folder.is_dir() else errors.FolderMissing(data_folder)
     snapshot, wanted = _read_store(data_folder / STORE_FILE, copy_store)
     lacking: list[str] = []
-    backup_folder = _resolve_links(backup_folder)
+    backup_folder = Path(os.path.realpath(backup_folder))  # a link to itself raises nothing
     there = dict(list_files(data_folder, backup_folder, lacking))
     if sessions_folder is not None and sessions_folder != data_folder / SESSIONS_FOLDER:
         there |= list_files(sessions_folder, backup_folder, lacking, SESSIONS_PREFIX)
@@ -263,7 +275,7 @@ def prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) ->
     unless a backup cannot be read: then nobody knows what is needed. Symbolic links are not touched, and nothing at all
     while another program writes a backup. Raises :class:`BackupUnreadable`.
     """
-    with contextlib.suppress(errors.OutputBusy), _exclusive_lock(backup_folder):
+    with contextlib.suppress(errors.OutputBusy), _lock(backup_folder):
         try:
             listed = [path for path in (backup_folder / BACKUPS).iterdir() if path.suffix == ".json"]
         except OSError as cause:
@@ -292,27 +304,6 @@ def prune_backups(backup_folder: Path, keep: int, months: int, now: datetime) ->
 def is_backup_due(made: datetime | None, days: int, now: datetime) -> bool:
     """Return whether a reminder is due: no backup for so many days."""
     return made is None or now.astimezone(UTC) - made.astimezone(UTC) > timedelta(days=days)
-
-
-def backup_to_dict(backup: Backup) -> dict[str, Any]:
-    """Return a backup as the content of its JSON."""
-    return {
-        "format": FORMAT,
-        "format_version": FORMAT_VERSION,
-        "made": backup.made.isoformat(),
-        "software_version": backup.software_version,
-        "data_folder": backup.data_folder,
-        "sessions": backup.session_count,
-        "size_bytes": backup.size_bytes,
-        "running": 0,  # Carpus 0.2.0 asks for it
-        "lacking": backup.missing_count,
-        "files": [[one.path, one.sha256, one.size, one.modified_ns] for one in backup.files],
-    }
-
-
-def _resolve_links(place: Path) -> Path:
-    """Resolve symbolic links; unlike ``Path.resolve`` a link to itself raises nothing."""
-    return Path(os.path.realpath(place))
 
 
 def list_files(
@@ -365,19 +356,9 @@ class BackupSourceError(Exception):
     """File of the data folder that cannot be read; the cause says whether it no longer exists."""
 
 
-@contextlib.contextmanager
-def _exclusive_lock(backup_folder: Path) -> Iterator[None]:
+def _lock(backup_folder: Path) -> contextlib.AbstractContextManager[None]:
     """Lock a backup folder. Raises :class:`OutputBusy` and the faults of writing."""
-    try:
-        lock = open(backup_folder / LOCK_FILE, "ab", opener=open_private)  # noqa: SIM115  # closed below
-    except OSError as cause:
-        raise write_fault(backup_folder, cause) from cause
-    with lock:
-        try:
-            lock_file(lock)
-        except OSError as cause:
-            raise errors.OutputBusy(backup_folder) from cause
-        yield
+    return exclusive_lock(backup_folder / LOCK_FILE, lambda _: errors.OutputBusy(backup_folder))
 
 
 def _read_blocks(source: Path) -> Iterator[bytes]:
@@ -390,10 +371,7 @@ def _read_blocks(source: Path) -> Iterator[bytes]:
 
 
 def _back_up_file(path: str, source: Path, backup_folder: Path, previous: BackupFile | None) -> BackupFile:
-    try:
-        state = source.stat()
-    except OSError as cause:
-        raise BackupSourceError from cause
+    state = source.stat()
     changed_ns = max(0, state.st_mtime_ns)
     same = previous is not None and (previous.size, previous.modified_ns) == (state.st_size, changed_ns)
     if previous is not None and same and object_path(backup_folder, previous.sha256).is_file():
@@ -445,18 +423,15 @@ def _find_objects(backup_folder: Path) -> Iterator[Path]:
 
 
 def _verify_file(backup_folder: Path, file: BackupFile) -> None:
-    if hash_file(object_path(backup_folder, file.sha256), from_disk=True) != file.sha256:
+    if hash_file(object_path(backup_folder, file.sha256)) != file.sha256:
         raise errors.BackupMismatch(file.sha256[:12], Path(file.path).suffix)
 
 
-def hash_file(path: Path, *, from_disk: bool = False) -> str:
-    """Return a file's SHA-256, empty if it cannot be read.
-
-    ``from_disk`` drops the system's cached pages first, where the system can.
-    """
+def hash_file(path: Path) -> str:
+    """Return a file's SHA-256, empty if it cannot be read; from the disk, where the system can drop cached pages."""
     try:
         with path.open("rb") as file:
-            if from_disk and hasattr(os, "posix_fadvise"):
+            if hasattr(os, "posix_fadvise"):
                 os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED)
             return hashlib.file_digest(file, "sha256").hexdigest()
     except OSError:

@@ -9,8 +9,6 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from carpus.core.capture.files.image_codec import decode_color, read_color
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawRecording
@@ -20,7 +18,7 @@ from carpus.core.measures.change_limits import DEFAULT_LIMITS
 from carpus.core.measures.manual_measurements import ManualValue
 from carpus.core.model.errors import CarpusFault, ServerUnavailable, SessionUnreadable
 from carpus.core.model.hand.exercises import get_exercise
-from carpus.core.model.types import ByteImage
+from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.records import patients, session_records
 from carpus.core.records.clinic_records import read_limits
 from carpus.core.records.erasure import resume_erasures
@@ -46,41 +44,30 @@ class FrameCache:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._open: list[StoredFrames] = []
+        self._open: dict[Path, tuple[RawRecording, FloatArray]] = {}
 
     def read_frame(self, paths: Sequence[Path], row: int) -> ByteImage | None:
-        """Return the colour frame of a row from the first of these results that has frames."""
-        with_pictures = (path for path in paths if path.with_suffix(RAW_SUFFIX).exists() or has_raw(path))
-        path = next(with_pictures, paths[0])
-        with self._lock:
-            kept = next((one for one in self._open if one.path == path), None)
-            if kept is None:
-                kept = StoredFrames(path)
-                self._open = [kept, *self._open][:MAX_OPEN_RECORDINGS]
-            return kept.read_color(row)
+        """Return the colour frame of a row from the first of these results that has frames, None without any.
+
+        Frames are in a raw recording beside the session or, in older ones, in its file.
+        """
+        for path in paths:
+            raw = path.with_suffix(RAW_SUFFIX)
+            if raw.exists():
+                with self._lock:
+                    if path not in self._open:
+                        opened = RawRecording(raw), read_session(path).timestamp_s
+                        self._open = dict([(path, opened), *self._open.items()][:MAX_OPEN_RECORDINGS])
+                    recording, times_s = self._open[path]
+                    return recording.load_color(float(times_s[row]))
+            if has_raw(path):
+                data = read_raw_color(path, row)
+                return decode_color(data) if data else None
+        return None
 
     def clear(self) -> None:
-        """Close the files."""
         with self._lock:
-            self._open = []
-
-
-class StoredFrames:
-    """Frames stored in a session file, or in a raw recording beside it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        raw = path.with_suffix(RAW_SUFFIX)
-        self._raw_recording = RawRecording(raw) if raw.exists() else None
-        self._is_in_session = self._raw_recording is None and has_raw(path)
-        self._times_s = read_session(path).timestamp_s if self._raw_recording is not None else np.empty(0)
-
-    def read_color(self, row: int) -> ByteImage | None:
-        """Return the colour frame of a row, None if it was not stored."""
-        if self._raw_recording is not None:
-            return self._raw_recording.load_color(float(self._times_s[row]))
-        data = read_raw_color(self.path, row) if self._is_in_session else b""
-        return decode_color(data) if data else None
+            self._open = {}
 
 
 class DataFolder:
@@ -240,7 +227,7 @@ class DataFolder:
         """Return the current comment, empty if there is none."""
         if session_id in self.unlisted:
             return ""
-        return session_records.current_comment(session_records.read_comments(self.store, session_id))
+        return session_records.read_current_comment(self.store, session_id)
 
     def save_comment(self, session_id: str, text: str) -> None:
         """Add a comment as the current one; earlier ones stay readable."""

@@ -75,48 +75,30 @@ class Database:
         self._engine.pool.dispose()
 
     @contextlib.contextmanager
-    def _dispose_when_closed(self) -> Iterator[None]:
-        """Close a connection that is returned after :meth:`close`: the pool would keep it."""
-        try:
-            yield
-        finally:
-            if self._is_closed:
-                self._engine.pool.dispose()
-
-    @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        with self._dispose_when_closed(), self._translate_errors(), self._engine.begin() as connection:
+        with self._guarded(), self._engine.begin() as connection:
             yield connection
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
         """Open a transaction; it is rolled back after an exception."""
-        with (
-            self._write_lock,
-            self._dispose_when_closed(),
-            self._translate_errors(),
-            self._engine.connect() as connection,
-        ):
+        with self._write_lock, self._guarded(), self._engine.connect() as connection:
             writes = connection.execution_options(writes=True)
             with writes.begin():
                 yield writes
 
-    def purge_deleted(self, *, wait: bool = True) -> bool:
+    def purge_deleted(self) -> bool:
         """Empty the write-ahead log, which keeps overwritten content.
 
         Returns False while another program reads.
         """
-        with self._write_lock, self._dispose_when_closed(), self._translate_errors():
-            raw = self._engine.raw_connection()
-            try:
-                raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS if wait else 0}")
-                return not raw.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()[0]
-            finally:
-                raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS}")
-                raw.close()
+        with self._write_lock, self._guarded(), contextlib.closing(self._engine.raw_connection()) as raw:
+            raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS}")
+            return not raw.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()[0]
 
     @contextlib.contextmanager
-    def _translate_errors(self) -> Iterator[None]:
+    def _guarded(self) -> Iterator[None]:
+        """Translate SQLite's errors; close a connection returned after :meth:`close`, which the pool would keep."""
         try:
             yield
         except (DBAPIError, sqlite3.Error) as cause:  # what SQLite says at a connection comes as it is
@@ -133,6 +115,9 @@ class Database:
             if code == sqlite3.SQLITE_IOERR:
                 raise errors.PatientListUnreadable(self._path, str(error)) from cause
             raise
+        finally:
+            if self._is_closed:
+                self._engine.pool.dispose()
 
 
 def copy_to_memory(path: Path) -> sqlite3.Connection:
@@ -219,7 +204,6 @@ def migrate(connection: Connection, name: Path | str) -> bool:
 
 
 def _restore_log_triggers(connection: Connection) -> None:
-    """Restore missing or changed triggers of the log."""
     query = "SELECT name, sql FROM sqlite_master WHERE type = 'trigger'"
     there = {str(name): sql for name, sql in connection.exec_driver_sql(query)}
     for one in SQLITE_LOG.strip().removesuffix(";").split(";\n"):

@@ -108,9 +108,8 @@ def erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
     """Erase as planned; return the number of files.
 
     Files that cannot be deleted are tried again when the store is opened. A patient's sessions added since the plan go
-    too.
-    Raises :class:`ErasureUnfinished` if files are left, :class:`OutputNotWritable` or :class:`DiskFull` if it could not
-    be logged and so was not started.
+    too. Raises :class:`ErasureUnfinished` if files are left, and :class:`OutputNotWritable` or :class:`DiskFull` if it
+    could not be logged and so was not started.
     """
     log.write_entry("erase_begun", plan.kind, plan.subject_id, files=len(plan.files))
     SessionFileScanner(store).scan(reports_faults=False)
@@ -131,7 +130,7 @@ def erase(store: Store, plan: ErasurePlan, log: AuditLogWriter) -> int:
 
 def resume_erasures(store: Store, log: AuditLogWriter) -> frozenset[str]:
     """Finish interrupted erasures; return the folded pseudonyms of patients erased by it."""
-    people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.pseudonym_key).where(PATIENT.c.erasing == 1)))
+    people = frozenset(store.scalars(select(PATIENT.c.pseudonym_key).where(PATIENT.c.erasing == 1)))
     remaining: list[Path] = []
     if people or store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)):
         remaining = delete_marked(store)
@@ -146,10 +145,10 @@ def delete_orphan_folders(store: Store) -> int:
     Raises :class:`FolderMissing` while the share is away.
     """
     check_share(store)
-    gone = {str(row[0]) for row in store.rows(ERASED_SUBJECTS)}
+    gone = store.scalars(ERASED_SUBJECTS)
     there = [one for one in store.sessions_folder.iterdir() if one.is_dir() and not one.is_symlink()]
     there = [one for one in there if is_patient_id(one.name) and fingerprint(one.name) in gone]
-    known = {str(row[0]) for row in store.rows(select(PATIENT.c.id))} if there else set()
+    known = store.scalars(select(PATIENT.c.id)) if there else set()
     used = {Path(row.path).parts[0] for row in store.rows(select(SESSION.c.path))} if there else set()
     remaining = [one for one in there if one.name not in known | used]
     for folder in remaining:
@@ -225,9 +224,10 @@ def _files_to_delete(store: Store, patients: Sequence[str], sessions: Sequence[s
     """
     rows, root, erased = store.rows(select(SESSION.c.id, SESSION.c.path)), store.sessions_folder, set(sessions)
     other_stems = {f"{root / row.path}".removesuffix(".h5") for row in rows if row.id not in erased}
-    session_files, found, scanner = set[Path](), set[Path](), SessionFileScanner(store)
+    session_files, found, states = set[Path](), set[Path](), read_file_states(store)
     for stored in (str(row.path) for row in rows if row.id in erased):
-        found |= {path for path in scanner.duplicate_files(stored) if path.is_file()}
+        copies = (root / path for path, one in states.items() if one.reason == f"{COPY_REASON}{stored}")
+        found |= {path for path in copies if path.is_file()}
         if (path := _resolve_inside(root, stored)) is not None:
             session_files |= {path} if path.exists() else set()
             beside = [

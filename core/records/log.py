@@ -106,15 +106,6 @@ class AuditLog:
                 self._on_fault(fault)
 
 
-def is_patient_erased(store: Store, patient_id: str) -> bool:
-    """Return whether a patient was, or is being, erased."""
-    erased = AUDIT_LOG.c.did.in_(("erase_begun", "erased")), AUDIT_LOG.c.kind == "patient"
-    return (
-        store.row(select(AUDIT_LOG.c.id).where(*erased, AUDIT_LOG.c.subject == fingerprint(patient_id)).limit(1))
-        is not None
-    )
-
-
 def read_log(store: Store) -> tuple[AuditEntry, ...]:
     """Return the whole log, oldest first; the numbers of damaged entries are missing."""
     rows = store.rows(select(AUDIT_LOG).order_by(AUDIT_LOG.c.at_ns, AUDIT_LOG.c.id))

@@ -17,10 +17,9 @@ from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
 from carpus.core.platform.durable import make_private_folder, write_fault
-from carpus.core.records.changes import is_patient_id
+from carpus.core.records.changes import ERASED_SUBJECTS, fingerprint, is_patient_id
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.erasure import delete_orphan_folders
-from carpus.core.records.log import is_patient_erased
 from carpus.core.records.patients import save_setup
 from carpus.core.records.recordings import (
     copy_session,
@@ -58,13 +57,10 @@ def recover_sessions(library: DataFolder) -> tuple[Sequence[RecoveredSession], S
     library.startup_faults, library.store.startup_faults = [], []
     try:
         library.resume_erasures()
-    except errors.ServerUnavailable as fault:  # all of this when it is back
-        return [], [*faults, fault]
-    if not library.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
-        return [], [*faults, errors.FolderMissing(library.store.sessions_folder)]
-    try:
+        if not library.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
+            raise errors.FolderMissing(library.store.sessions_folder)
         check_share(library.store)
-    except errors.FolderMissing as fault:
+    except (errors.ServerUnavailable, errors.FolderMissing) as fault:  # all of this when it is back
         return [], [*faults, fault]
     recovered, spool_faults = list[Path](), list[CarpusFault]()
     if _MOVE_LOCK.acquire(blocking=False):  # else another thread is at it
@@ -97,7 +93,7 @@ def _session_folder(library: DataFolder, patient_id: str, subject_id: str) -> Pa
     """Return the session folder of a patient or pseudonym, None for an erased patient."""
     owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else library.patients.id_of_pseudonym(subject_id)
     if is_patient_id(patient_id):
-        if is_patient_erased(library.store, patient_id):
+        if fingerprint(patient_id) in library.store.scalars(ERASED_SUBJECTS):
             return None
         if not owner or library.patients.has(patient_id):  # else given while the server was away
             owner = patient_id
@@ -199,6 +195,5 @@ class SessionIntake:
         return ALL_STRAIGHT
 
     def recover_interrupted(self) -> None:
-        """Complete interrupted sessions as far as possible."""
         with suppress(CarpusFault):
             recover_sessions(self._library)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import random
+import secrets
 import time
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -45,17 +45,12 @@ WORDS = (
 _NUMBERS = range(10, 100)
 
 
-def suggest_pseudonym(taken: Collection[str], chance: random.Random | None = None) -> str:
-    """Return a free pseudonym such as ``Linden 42``, chosen at random.
-
-    >>> suggest_pseudonym((), random.Random(7)).split()[0] in WORDS
-    True
-    """
-    chance = chance or random.SystemRandom()
+def suggest_pseudonym(taken: Collection[str]) -> str:
+    """Return a free pseudonym such as ``Linden 42``, chosen at random."""
     used = {name.casefold() for name in taken}
     free = [name for word in WORDS for number in _NUMBERS if (name := f"{word} {number}").casefold() not in used]
     if free:
-        return chance.choice(free)
+        return secrets.choice(free)
     number = max(_NUMBERS) + 1
     while (name := f"{WORDS[0]} {number}").casefold() in used:
         number += 1
@@ -98,7 +93,6 @@ class Patients:
         return _patient_from_row(row)
 
     def has(self, patient_id: str) -> bool:
-        """Return whether there is a patient with this id."""
         return self._store.row(select(PATIENT.c.id).where(PATIENT.c.id == patient_id)) is not None
 
     def id_of_pseudonym(self, pseudonym: str) -> str:
@@ -112,9 +106,8 @@ class Patients:
         row = self._store.row(query.order_by(PATIENT.c.last_s.desc()))
         return str(row[0]) if row else ""
 
-    def suggest_pseudonym(self, chance: random.Random | None = None) -> str:
-        """Return a random free pseudonym."""
-        return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))], chance)
+    def suggest_pseudonym(self) -> str:
+        return suggest_pseudonym([str(row[0]) for row in self._store.rows(select(PATIENT.c.pseudonym))])
 
     def save(self, patient: Patient) -> str:
         """Add or change a patient; return the id. Raises what :meth:`add` and :meth:`change` do."""
@@ -126,13 +119,8 @@ class Patients:
     def add(self, patient: Patient, now: datetime | None = None) -> str:
         """Add a patient; return the new id. Raises :class:`PseudonymTaken`, :class:`NameUnsuited`."""
         patient_id = new_id()
-        self._store.apply(
-            [
-                insert_row(
-                    PATIENT, patient_id, **patient_columns(patient), added_s=(now or datetime.now(UTC)).timestamp()
-                )
-            ]
-        )
+        added_s = (now or datetime.now(UTC)).timestamp()
+        self._store.apply([insert_row(PATIENT, patient_id, **patient_columns(patient), added_s=added_s)])
         self.on_change("added", patient_id)
         return patient_id
 
@@ -177,11 +165,8 @@ class Patients:
         return {str(row.id): parse_time(row.archived, row.added_s) for row in rows}
 
 
-ColumnTypes = Mapping[str, Any]
-"""Type of each column that a person fills in."""
-
-
-def _column_types(kind: Any) -> ColumnTypes:
+def _column_types(kind: Any) -> Mapping[str, Any]:
+    """Return the type of each column that a person fills in."""
     types = get_type_hints(kind)
     return {one.name: types[one.name] for one in fields(kind) if not one.kw_only}
 
@@ -192,7 +177,7 @@ NORMALIZED_FIELDS = ("pseudonym", "name", "record_number", "diagnosis")
 SEARCHED_FIELDS = ("pseudonym", "name", "record_number", "birth_day", "diagnosis", "note")
 
 
-def _to_columns(value: object, types: ColumnTypes) -> dict[str, Any]:
+def _to_columns(value: object, types: Mapping[str, Any]) -> dict[str, Any]:
     """Convert to columns: days as ISO 8601, empty for None; several texts one per line."""
     columns = {name: getattr(value, name) for name in types}
     for name, one in columns.items():
@@ -203,7 +188,7 @@ def _to_columns(value: object, types: ColumnTypes) -> dict[str, Any]:
     return columns
 
 
-def _from_columns(row: Row[Any], types: ColumnTypes) -> dict[str, Any]:
+def _from_columns(row: Row[Any], types: Mapping[str, Any]) -> dict[str, Any]:
     """Convert columns back; unknown choices of another program become the first choice."""
     read = {name: getattr(row, name) for name in types}
     for name, hint in types.items():

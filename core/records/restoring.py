@@ -77,7 +77,7 @@ def read_history(backup_folder: Path, store: Store | None) -> LogHistory:
 
 def _store_history(store: Store) -> LogHistory:
     deeds = tuple(dict(row._mapping) for row in store.rows(select(AUDIT_LOG)))
-    return LogHistory(deeds, frozenset(str(row[0]) for row in store.rows(ERASED_SUBJECTS)) - _fingerprints(store))
+    return LogHistory(deeds, frozenset(store.scalars(ERASED_SUBJECTS)) - _fingerprints(store))
 
 
 def plan_restore(backup: Backup, backup_folder: Path, data_folder: Path, history: LogHistory) -> RestorePlan:

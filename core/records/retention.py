@@ -53,10 +53,8 @@ def retention_end(recorded: datetime, years: int) -> date | None:
 
 def find_due_patients(store: Store, years: int, today: date) -> list[DuePatient]:
     """Return patients whose last session, archived or not, need no longer be kept; oldest first."""
-    last, last_s = (
-        func.max(SESSION.c.recorded).label("last_of_all"),
-        func.max(SESSION.c.recorded_s).label("last_of_all_s"),
-    )
+    last = func.max(SESSION.c.recorded).label("last_of_all")
+    last_s = func.max(SESSION.c.recorded_s).label("last_of_all_s")
     recordings = func.count(SESSION.c.recording_id.distinct()).label("recordings")
     query = (
         select(PATIENT, last, last_s, recordings)

@@ -11,7 +11,7 @@ import re
 import stat
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -39,15 +39,11 @@ COPY_REASON = "a copy of "
 
 @dataclass(frozen=True, slots=True)
 class FileState:
-    """State of a file when it was last read; ``reason`` why it is not a session."""
+    """State of a file when it was last read, equal while it need not be read again; ``reason`` why it is no session."""
 
     size: int
     modified_ns: int
-    reason: str = ""
-
-    def is_unchanged(self, other: FileState) -> bool:
-        """Return whether a file in the state ``other`` need not be read again."""
-        return (self.size, self.modified_ns) == (other.size, other.modified_ns)
+    reason: str = field(default="", compare=False)
 
 
 def read_file_states(store: Store) -> dict[str, FileState]:
@@ -346,11 +342,7 @@ class SessionFileScanner:
         faults: list[CarpusFault] = []
         for path, look in there.items():
             old = before.get(path)
-            if (
-                old
-                and old.is_unchanged(look)
-                and (old.reason[: len(COPY_REASON)] != COPY_REASON if old.reason else path in known)
-            ):
+            if old == look and (old.reason[: len(COPY_REASON)] != COPY_REASON if old.reason else path in known):
                 continue
             now_seen[path] = look
             try:
@@ -392,7 +384,7 @@ class SessionFileScanner:
         rows_of_people = self._store.rows(select(PATIENT.c.id, PATIENT.c.pseudonym_key, PATIENT.c.former_pseudonyms))
         people = {str(row.pseudonym_key): str(row.id) for row in rows_of_people}
         former = {str(row.id): {fold_name(one) for one in row.former_pseudonyms.split("\n")} for row in rows_of_people}
-        gone = {str(row[0]) for row in self._store.rows(changes.ERASED_SUBJECTS)} if found else set()
+        gone = self._store.scalars(changes.ERASED_SUBJECTS) if found else set()
         change: list[changes.RowChange] = []
         taken = 0
         for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
@@ -433,7 +425,7 @@ class SessionFileScanner:
 
     def _current_files(self) -> tuple[dict[str, FileState], list[str]]:
         """Return files named like sessions that are not being erased, and names that cannot be stored."""
-        going = {str(row[0]) for row in self._store.rows(select(SESSION.c.path).where(SESSION.c.erasing == 1))}
+        going = self._store.scalars(select(SESSION.c.path).where(SESSION.c.erasing == 1))
         there, nameless = dict[str, FileState](), list[str]()
         for file in sorted(iter_paths(self._folder, ".h5")):
             path = file.relative_to(self._folder).as_posix()
@@ -459,7 +451,7 @@ class SessionFileScanner:
                 continue
             look = FileState(state.st_size, state.st_mtime_ns, fault.detail or "cannot be read")
             known = before.get(path)
-            if known is None or not known.is_unchanged(look):
+            if known != look:
                 fresh.append(fault)
                 if is_storable_path(path):
                     save_file_states(self._store, {path: look})
@@ -472,17 +464,9 @@ class SessionFileScanner:
             path = self._folder / name
             if path.suffix == ".part" and path.is_file():
                 state = path.stat()
-                if look.is_unchanged(FileState(state.st_size, state.st_mtime_ns)):
+                if look == FileState(state.st_size, state.st_mtime_ns):
                     found.add(path)
         return found
-
-    def duplicate_files(self, path: str) -> list[Path]:
-        """Return files known as copies of a session."""
-        return [
-            self._folder / name
-            for name, one in read_file_states(self._store).items()
-            if one.reason == f"{COPY_REASON}{path}"
-        ]
 
 
 def _session_columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict[str, Any]:

@@ -6,7 +6,6 @@ import json
 import os
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
@@ -16,31 +15,21 @@ from sqlalchemy import Row, select
 from carpus.core.records.changes import RowChange, insert_row, update_row
 from carpus.core.records.schema import COMMENT, CORRECTION, OUTPUT_FILE
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import parse_time
 from carpus.core.results.repetition_rows import RepetitionChoices
 
 MAX_COMMENT_CHARACTERS = 20_000
 OutputKind = Literal["report", "export"]
 
 
-@dataclass(frozen=True, slots=True)
-class Comment:
-    """Comment with initials; an empty text deletes the one before."""
-
-    text: str
-    initials: str
-    entered_at: datetime
+def read_comments(store: Store, session_id: str) -> list[str]:
+    """Return all comments of a session, oldest first; an empty one deletes the one before."""
+    query = select(COMMENT.c.text).where(COMMENT.c.session_id == session_id)
+    return [str(row.text) for row in store.rows(query.order_by(COMMENT.c.entered_ns, COMMENT.c.id))]
 
 
-def read_comments(store: Store, session_id: str) -> tuple[Comment, ...]:
-    """Return all comments of a session, oldest first; the last one is current."""
-    query = select(COMMENT).where(COMMENT.c.session_id == session_id).order_by(COMMENT.c.entered_ns, COMMENT.c.id)
-    return tuple(Comment(row.text, row.by, parse_time(row.entered, row.entered_ns / 1e9)) for row in store.rows(query))
-
-
-def current_comment(comments: Sequence[Comment]) -> str:
+def read_current_comment(store: Store, session_id: str) -> str:
     """Return the current comment, empty for none."""
-    return comments[-1].text if comments else ""
+    return next(reversed(read_comments(store, session_id)), "")
 
 
 def add_comment(store: Store, session_id: str, text: str, initials: str) -> None:

@@ -126,11 +126,6 @@ DEFAULT_SETS = (
 )  # fmt: skip
 
 
-def new_set_id() -> str:
-    """Return an id for a new set."""
-    return str(uuid.uuid4())
-
-
 def start_set(exercise_set: ExerciseSet, set_up: SessionSetup, goals: Goals) -> SessionSetup:
     """Return the set-up of a set's first exercise, with the patient's goals."""
     own = {exercise: targets for (exercise, side), targets in goals.items() if side == set_up.side}

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sqlite3
-import time
 import uuid
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager, suppress
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
@@ -16,7 +16,7 @@ from sqlalchemy import Connection, Delete, Insert, Row, Select, Update, insert, 
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.phrase import phrase
-from carpus.core.platform.durable import iter_paths, lock_file, make_private_file, make_private_folder
+from carpus.core.platform.durable import exclusive_lock, iter_paths, make_private_folder
 from carpus.core.records.changes import ChangeSet, apply_changes, insert_row
 from carpus.core.records.database import STORE_FILE, Database, copy_to_memory, move_aside, rescue_rows
 from carpus.core.records.schema import PATIENT, TABLES
@@ -90,7 +90,7 @@ class Store:
         from carpus.core.records.local_store_import import LocalStoreImport
 
         try:
-            with _exclusive_lock(self._path), connection.begin_nested():
+            with self._exclusive_lock(), connection.begin_nested():
                 done = LocalStoreImport(self._path, connection)
         except sqlite3.Error:
             self._open_database().close()  # what can be read of a damaged one
@@ -110,7 +110,7 @@ class Store:
     def _open_database(self) -> Database:
         path = self._path
         # two programs that meet a damaged one would each set aside what the other has just made
-        with _exclusive_lock(path):
+        with self._exclusive_lock():
             try:
                 return Database(path)
             except errors.PatientListDamaged as fault:
@@ -122,6 +122,11 @@ class Store:
                     )
                 )
                 return database
+
+    def _exclusive_lock(self) -> AbstractContextManager[None]:
+        """Keep other programs from opening the store; raises :class:`PatientListBusy`."""
+        busy = partial(errors.PatientListBusy, self._path)
+        return exclusive_lock(self._path.with_suffix(".lock"), busy, LOCK_TIMEOUT_S)
 
     def _has_sessions(self) -> bool:
         files = (one.relative_to(self.sessions_folder) for one in iter_paths(self.sessions_folder, ".h5"))
@@ -140,6 +145,10 @@ class Store:
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
         with self._database.reading() as connection:
             return connection.execute(query).all()
+
+    def scalars(self, query: Select[Any]) -> set[Any]:
+        """Return the different values of the first column."""
+        return {row[0] for row in self.rows(query)}
 
     def row(self, query: Select[Any]) -> Row[Any] | None:
         with self._database.reading() as connection:
@@ -210,27 +219,6 @@ def open_to_read(
         return Store(folder, sessions_folder, copy=copy_to_memory(folder / STORE_FILE))
 
 
-@contextmanager
-def _exclusive_lock(path: Path) -> Iterator[None]:
-    """Keep other programs from opening the store.
-
-    Raises :class:`PatientListBusy`, :class:`OutputNotWritable`.
-    """
-    end = time.monotonic() + LOCK_TIMEOUT_S
-    lock = path.with_suffix(".lock")
-    make_private_file(lock)
-    with lock.open("r+b") as file:
-        while True:
-            try:
-                lock_file(file)
-                break
-            except OSError as cause:
-                if time.monotonic() > end:
-                    raise errors.PatientListBusy(path, cause.strerror or "") from cause
-                time.sleep(0.02)
-        yield
-
-
 def _ensure_practice_patient(connection: Connection) -> None:
     if connection.execute(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE_PATIENT)).first() is None:
         names = {"pseudonym_key": f"\N{BULLET}{PRACTICE_PATIENT}", "pseudonym": PRACTICE_NAME}
@@ -240,16 +228,3 @@ def _ensure_practice_patient(connection: Connection) -> None:
 def new_id() -> str:
     """Return a new random id of a row."""
     return uuid.uuid4().hex
-
-
-def has_store(folder: Path) -> bool:
-    """Return whether a folder has a store."""
-    return (folder / STORE_FILE).is_file()
-
-
-def require_store(folder: Path) -> None:
-    """Raise :class:`FolderMissing` or :class:`DataFolderMissing` for a folder without a store."""
-    if not folder.is_dir():
-        raise errors.FolderMissing(folder)
-    if not has_store(folder):
-        raise errors.DataFolderMissing(folder)

@@ -107,7 +107,7 @@ def test_copied_session_counts_once(tmp_path: Path) -> None:
         assert house.files.scan().session_count == 0
         assert [entry.path.name for entry in house.index.patient_sessions(patient.patient_id)] == ["b.h5"]
         assert house.patients.get(patient.patient_id).session_count == 1
-        assert [path.name for path in house.files.duplicate_files("b.h5")] == ["a.h5"]
+        assert session_list.read_file_states(house.store)["a.h5"].reason == "a copy of b.h5"
         first.unlink()
         house.files.scan()
         assert [entry.path.name for entry in house.index.patient_sessions(patient.patient_id)] == ["a.h5"]

@@ -178,7 +178,7 @@ def test_choices_and_comments_are_kept_in_the_store(library: DataFolder) -> None
     library.save_choices(session_id, choices)
     for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
         library.save_comment(session_id, text)
-    assert [one.text for one in session_records.read_comments(library.store, session_id)] == [
+    assert session_records.read_comments(library.store, session_id) == [
         "First.",
         "Second,\nwith a line.",
         "",

@@ -31,7 +31,7 @@ kind, folder, session_id, url = sys.argv[1:]
 with open_store(Path(folder), url) as house:
     print("begun", flush=True)
     if kind == "erasure":
-        erasure.erase(house.store, erasure.plan_patient(house.store, house.index.owner(session_id)), house.log)
+        erasure.erase(house.store, erasure.plan_patient(house.store, house.index.owner_id(session_id)), house.log)
         print("done", flush=True)
     version = 0
     for number in itertools.count() if kind != "erasure" else ():
@@ -85,7 +85,7 @@ def _check_written(house: House, kind: str, session_id: str, said: list[int]) ->
         choices, _ = session_records.read_choices(house.store, session_id)
         assert not said or int(choices.excluded[0]) in (said[-1], said[-1] + 1)
     else:
-        there = [int(one.text) for one in session_records.read_comments(house.store, session_id)]
+        there = [int(one) for one in session_records.read_comments(house.store, session_id)]
         assert there == list(range(len(there)))
         assert len(there) - len(said) in (0, 1)
 

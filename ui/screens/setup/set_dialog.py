@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import zip_longest
+from uuid import uuid4
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QLineEdit, QWidget
@@ -20,7 +21,6 @@ from carpus.core.records.session_setup import (
     MAX_SECONDS,
     ExerciseSet,
     SetPart,
-    new_set_id,
 )
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.dialog import Dialog
@@ -168,7 +168,7 @@ class SetDialog(Dialog):
     def _load_chosen(self) -> None:
         known = next((one for one in self._sets_of_protocol() if one.set_id == self.set_choice.currentData()), None)
         first = exercises_for_protocol(get_protocol(self._protocol_name))[0]
-        self._edited_set = known or ExerciseSet(new_set_id(), "", self._protocol_name, (SetPart(first),))
+        self._edited_set = known or ExerciseSet(str(uuid4()), "", self._protocol_name, (SetPart(first),))
         self._is_delete_confirmed = False
         self.delete_button.set_label(self.tr("Delete this set"))
         self.delete_button.setEnabled(known is not None)
