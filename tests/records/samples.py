@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, fields
 from datetime import UTC, date, datetime, timedelta
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from carpus.core.measures.manual_measurements import ManualValue
@@ -21,6 +23,7 @@ from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import SIMULATED
 from carpus.core.records import clinic_records, patients, session_records
 from carpus.core.records.data_folder import DataFolder
+from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import AuditLogWriter
 from carpus.core.records.patients import Patients, save_setup
 from carpus.core.records.session_list import SessionFileScanner, SessionList
@@ -65,11 +68,21 @@ class House:
         return [record.pseudonym for record in self.patients.search(search)]
 
 
+@cache
+def _empty_store() -> bytes:
+    with TemporaryDirectory() as folder:
+        Store(Path(folder)).close()
+        return (Path(folder) / STORE_FILE).read_bytes()
+
+
 @contextmanager
 def open_store(
     folder: Path, url: str = "", tell: Callable[[CarpusFault], None] = lambda _: None, sessions: Path | None = None
 ) -> Iterator[House]:
-    """The store of a folder, open."""
+    """The store of a folder, open; an empty one is a copy, since it takes long to make."""
+    if not url and not (folder.is_dir() and any(folder.iterdir())):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / STORE_FILE).write_bytes(_empty_store())
     with Store(folder, sessions, url, tell) as store:
         yield House(
             store, Patients(store), SessionList(store), SessionFileScanner(store), AuditLogWriter(store, "window")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from operator import delitem, setitem
 from pathlib import Path
 
@@ -10,8 +12,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.model.errors import SessionChanged, SessionUnfinished, SessionUnreadable
-from carpus.core.records.recordings import write_session
+from carpus.core.model.errors import SessionChanged, SessionUnreadable
 from carpus.core.session import session_file
 from carpus.core.session.reader import verify
 from carpus.core.session.values import EncodedImages, VerificationResult, stack_states
@@ -22,10 +23,8 @@ from tests.session.samples import (
     begin_session,
     compute_time,
     make_frame,
-    write_closed_journal,
     write_once,
 )
-from tests.session.test_golden import unpack_golden
 
 ROWS = 30
 
@@ -48,14 +47,6 @@ def store_session(path: Path) -> Path:
     return path
 
 
-def test_checksum_of_recovered_session_exists(tmp_path: Path) -> None:
-    with pytest.raises(SessionUnfinished):
-        verify(unpack_golden("v2-wrist6.h5.0123abcd.part", tmp_path))
-    assert verify(write_session(write_closed_journal(tmp_path / "s.journal", ROWS))) == VerificationResult(
-        ROWS, has_checksum=True
-    )
-
-
 CHANGES: dict[str, Callable[[h5py.File], object]] = {
     "an angle": lambda file: setitem(file["/wrist/angles"], (3, 1), file["/wrist/angles"][3, 1] + 1e-9),
     "a name": lambda file: setitem(file.attrs, "subject_id", "Linden 43"),
@@ -68,14 +59,18 @@ CHANGES: dict[str, Callable[[h5py.File], object]] = {
 }
 
 
-@pytest.mark.parametrize("change", CHANGES)
-def test_checksum_any_change_is_detected(tmp_path: Path, change: str) -> None:
+def test_checksum_any_change_is_detected(tmp_path: Path) -> None:
     path = store_session(tmp_path / "s.h5")
     assert verify(path) == VerificationResult(ROWS, has_checksum=True)
-    with h5py.File(path, "r+") as file:
-        CHANGES[change](file)
-    with pytest.raises(SessionChanged):
-        verify(path)
+    undetected = []
+    for name, change in CHANGES.items():
+        changed = Path(shutil.copy(path, tmp_path / "changed.h5"))
+        with h5py.File(changed, "r+") as file:
+            change(file)
+        with suppress(SessionChanged):
+            session_file.verify(changed)
+            undetected.append(name)
+    assert undetected == []
 
 
 def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
@@ -95,11 +90,8 @@ def test_checksum_flipped_bits_are_detected(tmp_path: Path) -> None:
         flipped = bytearray(data)
         flipped[at] ^= 1 << int(rng.integers(8))
         other.write_bytes(flipped)
-        is_picture = name == "/raw/color"
-        with pytest.raises((SessionUnreadable, SessionChanged) if is_picture else SessionUnreadable):
-            (session_file.verify if is_picture else session_file.read_session)(
-                other
-            )  # known to end: here it is quicker
+        with pytest.raises((SessionUnreadable, SessionChanged) if name == "/raw/color" else SessionUnreadable):
+            (session_file.verify if name == "/raw/color" else session_file.read_session)(other)
     assert len(used) == 16
 
 

@@ -187,9 +187,8 @@ def test_session_file_values_are_in_their_datasets(tmp_path: Path) -> None:
             if not attribute or path.startswith("/smoothed"):
                 continue
             of_moment = path.startswith(("/wrist", "/joints"))
-            for row, frame in enumerate(frames):
-                expected = getattr(frame.kinematics if of_moment else frame, attribute)
-                np.testing.assert_array_equal(file[path][row], expected, err_msg=path)
+            expected = [getattr(frame.kinematics if of_moment else frame, attribute) for frame in frames]
+            np.testing.assert_array_equal(file[path][()], expected, err_msg=path)
             if of_moment:
                 np.testing.assert_array_equal(file["/smoothed" + path][()], file[path][()][::-1], err_msg=path)
         calibration = make_calibration(HAND21)
@@ -197,12 +196,12 @@ def test_session_file_values_are_in_their_datasets(tmp_path: Path) -> None:
         np.testing.assert_array_equal(file["/calibration/marker_position"], calibration.marker_position_w0_m)
         np.testing.assert_array_equal(file["/calibration/rotation"], calibration.rotation_w0_cam)
         np.testing.assert_array_equal(file["/calibration/translation"], calibration.translation_w0_cam_m)
-        for row, frame in enumerate(frames):
-            mine = file["/detections/frame"][()] == row
-            for name in ("pixel", "depth", "depth_sd", "area", "similarity"):
-                attribute = {"depth": "depth_m", "depth_sd": "depth_sd_m", "area": "area_px"}.get(name, name)
-                stored = file[f"/detections/{name}"][()][mine]
-                np.testing.assert_array_equal(stored, getattr(frame.detections, attribute))
+        rows = [row for row, frame in enumerate(frames) for _ in range(len(frame.detections))]
+        np.testing.assert_array_equal(file["/detections/frame"][()], rows)
+        names = {"pixel": "pixel", "depth": "depth_m", "depth_sd": "depth_sd_m", "area": "area_px"}
+        for name, attribute in (names | {"similarity": "similarity"}).items():
+            stored = np.concatenate([getattr(frame.detections, attribute) for frame in frames])
+            np.testing.assert_array_equal(file[f"/detections/{name}"][()], stored)
         assert file["/events/time"][()].tolist() == [compute_time(3), compute_time(9)]
         assert file["/events/kind"].asstr("utf-8")[()].tolist() == ["note", "repetition"]
         assert file["/events/text"].asstr("utf-8")[()].tolist() == ["Schmerz am Daumen: 3°", ""]

@@ -14,7 +14,7 @@ import pytest
 
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session import schema
-from carpus.core.session.reader import read_detections, read_raw, read_session, verify
+from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session, verify
 from carpus.core.session.values import EncodedImages
 from tests.session.samples import CAMERA, compute_time
 
@@ -71,7 +71,10 @@ def test_golden_old_session_is_read(tmp_path: Path, version: int, protocol: Mark
             assert file[place].shape[0] > 0
             np.testing.assert_array_equal(values, file[place][()], err_msg=place)
         assert np.isfinite(file["/wrist/angles"][0]).all()
+        h5_unit = file["/raw"].attrs["depth_unit_m"]
     assert pictures == [EncodedImages(bytes([row]) * 20, b"d" * row) for row in range(ROWS)]
+    assert has_raw(path)
+    assert raw_depth_unit_m(path) == h5_unit
     assert verify(path).has_checksum == (version > 1)
     assert path.read_bytes() == before
 

@@ -7,18 +7,19 @@ import os
 import subprocess
 import sys
 from contextlib import closing
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from carpus.core.model.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
-from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.hand.protocols import HAND21, WRIST6
 from carpus.core.session.file_layout import Blocks, build_frame_blocks
 from carpus.core.session.journal import JournalReader, unpack_arrays
 from carpus.core.session.schema import TableLayout
 from tests.moments import with_moment
-from tests.session.samples import make_frame, make_header, write_journal
+from tests.session.samples import make_frame, write_journal
 
 ROOT = Path(__file__).parents[2]
 BATCH, BATCHES = 5, 6
@@ -45,13 +46,17 @@ def split_batches(path: Path) -> list[int]:
     return ends
 
 
+@cache
+def build_batch(number: int) -> Blocks:
+    frames = [make_frame(number * BATCH + row) for row in range(BATCH)]
+    return build_frame_blocks(TableLayout(WRIST6, ()), frames)
+
+
 def check_prefix(path: Path, batches: int) -> None:
-    header = make_header()
-    layout = TableLayout(header.protocol, header.joint_names)
     found = store_rows(path)
     assert len(found) == batches
     for number, blocks in enumerate(found):
-        expected = build_frame_blocks(layout, [make_frame(number * BATCH + row) for row in range(BATCH)])
+        expected = build_batch(number)
         assert blocks.keys() == expected.keys()
         for name, data in blocks.items():
             np.testing.assert_array_equal(data, expected[name], name)
@@ -121,7 +126,7 @@ BOUNDED = """
 import resource, sys
 from pathlib import Path
 from carpus.core.model.errors import DiskFull
-from carpus.core.model.hand.protocols import HAND21
+from carpus.core.model.hand.protocols import HAND21, WRIST6
 from tests.session.samples import write_journal, make_frame
 resource.setrlimit(resource.RLIMIT_FSIZE, (3_000_000, 3_000_000))
 journal = write_journal(Path(sys.argv[1]), protocol=HAND21)

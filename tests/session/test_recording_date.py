@@ -6,12 +6,9 @@ import uuid
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-import h5py
-
 from carpus.core.model.dates import moment_from_timestamp, to_iso
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.records.values import Patient, select_latest_versions
-from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from tests.records.samples import open_store
 from tests.session.samples import begin_session
@@ -33,18 +30,6 @@ def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, r
     path.parent.mkdir(parents=True, exist_ok=True)
     begin_session(path, header, 4).close()
     return path
-
-
-def test_session_date_is_that_of_the_movement(tmp_path: Path) -> None:
-    recording = str(uuid.uuid4())
-    header = read_session(write(tmp_path / "s.h5", recording=recording)).header
-    assert header.recording_time == MOVED
-    assert datetime.fromisoformat(header.created) == TRACKED
-    assert header.recording_id == recording
-    with h5py.File(tmp_path / "s.h5") as file:
-        assert file.attrs["format_version"] == 2
-        assert datetime.fromisoformat(file.attrs["recorded"]) == MOVED
-        assert file.attrs["recording_id"] == recording
 
 
 def test_recording_date_ignores_camera_clock() -> None:

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.model.errors import RecordingMissing, SessionUnreadable
+from carpus.core.model.errors import RecordingMissing, SessionUnfinished, SessionUnreadable
 from carpus.core.records.recordings import (
     RecoveryResult,
     SessionDraft,
@@ -167,7 +167,8 @@ def test_recovery_unfinishable_files_stay_and_names_are_kept(tmp_path: Path) -> 
 
 
 def test_recovery_old_part_file_is_finished(tmp_path: Path) -> None:
-    old_part(tmp_path)
+    with pytest.raises(SessionUnfinished):
+        verify(old_part(tmp_path))
     (tmp_path / f"{PART}.alive").write_text("{}")
     assert recover_recordings(tmp_path, NOW).recovered == (tmp_path / "v2-wrist6.h5",)
     assert [path.name for path in tmp_path.iterdir()] == ["v2-wrist6.h5"]

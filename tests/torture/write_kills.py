@@ -18,7 +18,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -203,37 +202,27 @@ def run_killed(
 
 def kill_at_random(count: int, folder: Path) -> str:
     """As many kills by the clock, of recordings and of recoveries that go on where the one before was killed."""
+
+    def arm(most_s: float) -> Callable[[], int]:
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_REAL, chance.uniform(1e-6, most_s))
+        return lambda: 1
+
     chance, lost = random.Random(46), 0
     for number in range(count):
         place, home = folder / f"r{number}", folder / f"r{number}-home"
         place.mkdir(parents=True)
         home.mkdir()
-        _, rows = run_killed_after(record, (place, home), chance.uniform(0.0, 0.35))
+        chance.random()  # the forked process draws from a copy
+        _, rows = run_killed(record, (place, home), lambda: arm(0.35), False)
         for _ in range(2):
-            run_killed_after(recover, (place, home), chance.uniform(0.0, 0.1))
+            chance.random()
+            run_killed(recover, (place, home), lambda: arm(0.1), False)
         recover(place, home, mmap.mmap(-1, 8))
         lost += check(place, home, rows) < rows
         shutil.rmtree(place)
         shutil.rmtree(home)
     return f"{count} recordings killed at random, and their recovery twice: {lost} lost a row"
-
-
-def run_killed_after(
-    work: Callable[[Path, Path, mmap.mmap], None], where: tuple[Path, Path], after_s: float
-) -> tuple[int, int]:
-    """As :func:`run_killed`, by the clock."""
-
-    def arm() -> Callable[[], int]:
-        signal.signal(signal.SIGALRM, signal.SIG_DFL)
-        owner = os.getpid()
-        if os.fork() == 0:
-            time.sleep(after_s)
-            if os.getppid() == owner:  # it has not ended by itself
-                os.kill(owner, signal.SIGKILL)
-            os._exit(0)
-        return lambda: 1
-
-    return run_killed(work, where, arm, False)
 
 
 def lines(every: int, count: int, folder: Path) -> list[str]:
