@@ -9,8 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from PySide6.QtWidgets import QLabel
+
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Session
+from carpus.ui.report.page import Report, layout_pages
 from carpus.ui.report.pdf import write_report
 from carpus.ui.report.progress_page import ProgressReport, build_progress_report
 from carpus.ui.report.session_page import SessionReport, build_session_report
@@ -25,6 +28,12 @@ def write_progress_report(report: Sequence[SessionResults] | ProgressReport, pat
     """Write the report over sessions as PDF, built of them first if they are given."""
     built = report if isinstance(report, ProgressReport) else build_progress_report(report, **context)
     return write_report(built, path)
+
+
+def page_words(report: Report) -> str:
+    """All words that are laid out on the pages, with one space between; without those of the charts."""
+    parts = [part for page in layout_pages(report) for part, _, _ in page._parts]
+    return " ".join(" ".join(label.text() for part in parts for label in part.findChildren(QLabel)).split())
 
 
 def tool(name: str, *arguments: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,12 +12,13 @@ from carpus.core.formats.measures_table import build_measure_rows
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Event, Session
+from carpus.ui.report.session_page import build_session_report
 from carpus.ui.words.active_passive import MANUAL_SIGN, build_active_passive
 from carpus.ui.words.ranges import repetition_words
 from tests.results.days import with_ranges
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.printed import read_words, write_session_report
+from tests.ui.printed import page_words
 
 HELPED_S = 35.0
 
@@ -99,11 +99,8 @@ def test_table_lower_bound_shows_the_manual_value() -> None:
     assert not any(head.endswith("passive") for head in found.table.heads), "nothing was passive: no column of it"
 
 
-def test_report_prints_both_and_what_was_measured_manually(tmp_path: Path) -> None:
-    path = write_session_report(
-        helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", manual_values=hand_values_today()
-    )
-    words = read_words(path)
+def test_report_prints_both_and_what_was_measured_manually() -> None:
+    words = page_words(build_session_report(helped_session((HELPED_S, PASSIVE)), manual_values=hand_values_today()))
     assert "Active and passive" in words
     assert f"{MANUAL_SIGN} 48° / 60°" in words
     assert "passive" in words

@@ -74,7 +74,7 @@ def test_angle_on_frame_is_one_that_was_measured(side: Session) -> None:
     assert angle_overlay(bending, 60, get_exercise("WRIST_FE")) is None, "towards the camera it would look too small"
 
 
-def test_hand_picture_without_consent_or_frames_is_not_saved(qtbot: QtBot, review: Reviewing) -> None:
+def test_hand_picture_needs_frames_and_consent_and_says_whose_angle_it_is(qtbot: QtBot, review: Reviewing) -> None:
     screen = review(FakeSessions(pictures=False), "session-7")
     assert screen.frame_view.save_button.isHidden()
     with painted_texts(screen) as painted:
@@ -101,6 +101,14 @@ def test_hand_picture_without_consent_or_frames_is_not_saved(qtbot: QtBot, revie
     assert not sheet.consent_check.isChecked(), "agreement is given each time"
     sheet.open_form(refused=True)
     assert not sheet.consent_check.isEnabled()
+    sheet.close_dialog()
+    row, time_s = screen.frame_view.row, screen.playing.time_s
+    screen._exclude_repetition(screen.current + 1, PASSIVE, and_after=False)
+    reviewed = screen.reviewed
+    assert build_hand_image(reviewed, row, time_s).words.endswith("°, passive")
+    header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
+    simulated = replace(reviewed, session=replace(reviewed.session, header=header))
+    assert build_hand_image(simulated, row, time_s).words.endswith("°, passive · Simulated hand")
 
 
 def test_saved_frame_shows_hand_alone_is_reported_and_noted(
@@ -138,15 +146,3 @@ def test_saved_frame_shows_hand_alone_is_reported_and_noted(
     qtbot.waitUntil(lambda: bool(messages.faults))
     assert isinstance(messages.faults[0], OutputNotWritable)
     assert not list(tmp_path.iterdir())
-
-
-def test_words_on_a_picture_say_where_the_angle_is_not_the_patients_own(qtbot: QtBot, review: Reviewing) -> None:
-    screen = review(FakeSessions(), "session-7")
-    screen.select_repetition(3)
-    row, time_s = screen.frame_view.row, screen.playing.time_s
-    screen._exclude_repetition(screen.current + 1, PASSIVE, and_after=False)
-    reviewed = screen.reviewed
-    assert build_hand_image(reviewed, row, time_s).words.endswith("°, passive")
-    header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
-    simulated = replace(reviewed, session=replace(reviewed.session, header=header))
-    assert build_hand_image(simulated, row, time_s).words.endswith("°, passive · Simulated hand")

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QRectF
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -27,8 +26,7 @@ from carpus.core.records.new_sessions import recover_sessions
 from carpus.core.results.progress import compute_progress
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.history import History
-from carpus.ui.charts.panel import screen_style
-from carpus.ui.charts.progress import place_panels
+from carpus.ui.charts.progress import panel_scale
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.text import StateText, Text
 from carpus.ui.kit.theme import Theme
@@ -46,8 +44,6 @@ from tests.results.days import with_ranges
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import hand_session
-
-BOX = QRectF(0.0, 0.0, 800.0, 500.0)
 
 
 def said(widget: QWidget) -> str:
@@ -136,8 +132,7 @@ def test_unreached_side_is_a_deficit_everywhere(theme: Theme) -> None:
     item = next(item for item in course.comparisons if item.after.quantity == "extension")
     assert item.verdict == "improved"
     assert value_pair(item).count("deficit") == 2
-    panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, 1) if key[1] == "extension")
-    assert panel.scale.low < item.before.mean + 5.0
+    assert panel_scale(course, item.after.key).low < item.before.mean + 5.0
     card = PatientCardView(theme, NOW.date, NameDisplay())
     row = replace(item.after, mean=-20.0)
     card.show_card(PatientCard(FakeStore().rows[5], ((row, None),), has_sessions=True), is_camera_ready=True)

@@ -20,9 +20,6 @@ from tests.ui.printed import read_words, write_session_report
 BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 
 
-# --- ways -------------------------------------------------------------------------------------------------
-
-
 def test_thumb_side_is_on_its_side_of_panel_for_both_hands(theme: Theme) -> None:
     for side, thumb_left in (("right", True), ("left", False)):
         session = hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)
@@ -34,28 +31,16 @@ def test_thumb_side_is_on_its_side_of_panel_for_both_hands(theme: Theme) -> None
         assert (x[0] < x[4]) is thumb_left
 
 
-# --- review -----------------------------------------------------------------------------------------------
-def test_review_of_reach_has_its_values_and_ways_of_joints(review: Reviewing) -> None:
-    store = FakeHandSessions(pictures=False)
-    made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
+def test_review_of_reach_has_ways_out_beside_those_back_with_last_time(review: Reviewing) -> None:
+    store, made = FakeHandSessions(pictures=False), hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
     screen = review(store, "hand-7")
-    names = {cell.text for row in screen.card.tables.task_table.rows for cell in row}
-    for name in (
-        "Movement time, outward",
-        "Peak speed, return",
-        "Path length ratio, outward",
-        "Maximum grip aperture, thumb–index",
-    ):
-        assert name in names
+    shown, figures = screen.card.tables.task_table, figures_once(made)
+    names = {cell.text for row in shown.rows for cell in row}
+    assert {"Movement time, outward", "Peak speed, return", "Maximum grip aperture, thumb–index"} <= names
     assert not any("SPARC" in name for name in names), "on the researcher's page"
-    assert screen.card.tables.task_table.isVisibleTo(screen)
-
-
-# --- words ------------------------------------------------------------------------------------------------
-def test_ways_out_stand_beside_those_back_with_last_time() -> None:
+    assert shown.isVisibleTo(screen)
     before = figures_once(hand_session(NOW - timedelta(days=7), 0.9, "REACH_GRASP", "hand-6", "reach_grasp"))
-    figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     rows = task_table(figures, before).rows
     assert [row[::3] for row in rows[:2]] == [
         ("Movement time, outward", "Movement time, return"), ("Peak speed, outward", "Peak speed, return"),
@@ -68,7 +53,6 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     assert task_summary(figures_once(hand_session())) == ""
 
 
-# --- paper ------------------------------------------------------------------------------------------------
 def test_second_page_has_papers_values(tmp_path: Path) -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     path = write_session_report(made, tmp_path / "reach.pdf")

@@ -41,7 +41,7 @@ from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.results.days import with_ranges
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.printed import count_pages, measure_reach, read_words, tool, write_session_report
+from tests.ui.printed import count_pages, measure_reach, page_words, read_words, tool, write_session_report
 
 LONG = "\n".join(f"Line {number} of what the therapist says." for number in range(120))
 
@@ -98,34 +98,25 @@ def test_report_last_pages_are_the_comment_behind_any_other(monkeypatch: pytest.
     told = re.findall(r"Row (\d+)", "".join(words))
     assert list(map(int, told)) == list(range(130)), "each row once, in order"
     left_out = replace(report(comment="Short."), form=ReportForm(excluded_sections=frozenset({"rows"})))
-    assert "Row 1" not in read_words(write_session_report(left_out, tmp_path / "y.pdf"))
+    assert "Row 1" not in page_words(left_out)
 
 
-def test_progress_report_lists_all_manual_values_that_have_no_room(tmp_path: Path) -> None:
+def test_progress_report_lists_all_manual_values_that_have_no_room() -> None:
     names = ("FLEXION", "EXTENSION", "RADIAL", "ULNAR", "PRONATION", "SUPINATION")
     days = [date(2026, 8, 1) + timedelta(days=number) for number in range(70)]
     values = [ManualValue(names[number % 6], "active", "right", day, (20.0,)) for number, day in enumerate(days)]
     course = build_progress_report(FakeSessions().history("linden"), manual_values=values)
-    path = write_report(course, tmp_path / "x.pdf")
-    words = read_words(path)
+    words = page_words(course)
     assert "see the next page for the complete list" in words
-    assert words.count(LEGAL_SENTENCE) == count_pages(path) > 2
+    assert words.count(LEGAL_SENTENCE) == len(pages_of_report(course)) > 2
     assert [day for day in days if numbers.format_date(day) not in words] == []
 
 
-def test_report_mandatory_sections_stay(tmp_path: Path) -> None:
+def test_report_mandatory_sections_stay() -> None:
     made = report(form=ReportForm(excluded_sections=frozenset(section.name for section in SECTIONS if section.label)))
     doubtful = replace(made, results=replace(made.results, is_simulated=True))
-    words = read_words(write_session_report(doubtful, tmp_path / "x.pdf"))
-    sure = "How reliable are these values?"
-    for kept in (
-        LEGAL_SENTENCE,
-        "Simulated data",
-        sure,
-        "Method: 6 markers",
-        "SD of a visible angle is about",
-        "Carpus 1",
-    ):
+    words, sure = page_words(doubtful), "How reliable are these values?"
+    for kept in (LEGAL_SENTENCE, "Simulated data", sure, "Method: 6 markers", "SD of a visible angle", "Carpus 1"):
         assert kept in words
     for gone in ("Range of motion", "Angles over time", "Pain, note", "ZYZ angles"):
         assert gone not in words
@@ -166,22 +157,19 @@ def test_report_invalid_logo_is_refused(tmp_path: Path) -> None:
             logo_png(tmp_path / name)
 
 
-@pytest.mark.parametrize(("language", "hand"), [("en", False), ("de", False), ("de", True)])
-def test_letter_of_any_length_is_one_page(language: str, hand: bool, tmp_path: Path) -> None:
+@pytest.mark.parametrize("hand", [False, True])
+def test_letter_of_any_length_is_one_page(hand: bool, tmp_path: Path) -> None:
+    """In German, which has the longest words."""
     store = FakeHandSessions() if hand else FakeSessions()
     stored = store.session("hand-7" if hand else "session-7")
     head = Letterhead("W" * 60, ("Y" * 80,) * 4, logo_png(picture(tmp_path / "logo.png")))
     form = ReportForm(head, "letter")
-    made = build_session_report(
-        stored, history=store.history("linden"), form=form, language=language, therapist="M. R."
-    )
+    made = build_session_report(stored, history=store.history("linden"), form=form, language="de", therapist="M. R.")
     made = replace(made, results=replace(made.results, is_simulated=True, is_recovered=True, is_excluded=True))
     named = Patient("Linden 42", "right", name="Real Name")
-    for comment in (
-        ("Short, and kept.", LONG) if language == "de" else ("Short, and kept.",)
-    ):  # it has the longest words
+    for comment in ("Short, and kept.", LONG):
         letter = LetterReport(
-            replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), named, language
+            replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), named, "de"
         )
         path = write_report(letter, tmp_path / f"{len(comment)}.pdf")
         assert count_pages(path) == 1
@@ -239,14 +227,14 @@ def test_home_dialog_shows_no_deterioration() -> None:
     assert build_home_progress(worse, history, {}) is None
 
 
-def test_letter_names_no_one_unless_asked(tmp_path: Path) -> None:
+def test_letter_names_no_one_unless_asked() -> None:
     made = report()
-    words = read_words(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
+    words = page_words(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)))
     kept = ("Dr A", "Vienna", "22 Nov 2026", "Total arc", "± ", "first session on", LEGAL_SENTENCE[:60])
     assert all(one in words for one in (f"camera: {made.pseudonym} Dear", *kept))
 
 
-def test_reports_print_the_real_name_in_their_language_where_asked(tmp_path: Path) -> None:
+def test_reports_print_the_real_name_in_their_language_where_asked() -> None:
     erika = Patient("Linden 42", "right", name="Erika Muster", birth_day=date(1981, 3, 12), record_number="PR-1")
     made = replace(report(), pseudonym="Linden 42")
     home, course = home_report("de"), build_progress_report(FakeSessions().history("linden"))
@@ -255,32 +243,31 @@ def test_reports_print_the_real_name_in_their_language_where_asked(tmp_path: Pat
         (replace(course, printed_patient=erika), "born 12 Mar 1981, No. PR-1"),
         (replace(home, report=replace(made, printed_patient=erika)), "geb. 12. März 1981, Nr. PR-1"),
     )
-    for number, (page, born) in enumerate(pages):
-        assert f"Erika Muster, {born}" in read_words(write_report(page, tmp_path / f"{number}.pdf")).replace("\n", " ")
-    assert "Erika" not in read_words(write_report(made, tmp_path / "plain.pdf"))
+    for page, born in pages:
+        assert f"Erika Muster, {born}" in page_words(page)
+    assert "Erika" not in page_words(made)
 
 
-def test_diagnosis_is_printed_only_where_clinic_wants_it(tmp_path: Path) -> None:
+def test_diagnosis_is_printed_only_where_clinic_wants_it() -> None:
     """With the weeks that had passed on the day of the session."""
     day = report().results.when.date() - timedelta(weeks=13)
     own = replace(report(), diagnosis="Wrist fracture, plate", onset="operation", onset_day=day)
     asked = replace(own, form=replace(own.form, excluded_sections=frozenset()))
     for one, printed in ((own, False), (asked, True)):
-        said = read_words(write_session_report(one, tmp_path / f"{printed}.pdf"))
+        said = page_words(one)
         assert [words in said for words in ("Wrist fracture, plate", "13 weeks before")] == [printed, printed]
 
 
-@pytest.mark.parametrize("printed", PAPERS)
-def test_report_printed_on_other_paper_is_not_cut(printed: Paper, tmp_path: Path) -> None:
+def test_report_printed_on_other_paper_is_not_cut(tmp_path: Path) -> None:
     made = report(form=ReportForm(paper="a4"), comment="Splint.")
     pages = pages_of_report(made)
     printer = make_printer(made, len(pages))
     printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
     printer.setOutputFileName(str(tmp_path / "p.pdf"))
-    printer.setPageSize(QPageSize(PAGE_SIZES[printed]))
+    printer.setPageSize(QPageSize(PAGE_SIZES["letter"]))
     print_pages(printer, pages)
     assert count_pages(tmp_path / "p.pdf") == 2
-    assert measure_reach(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
+    assert measure_reach(tmp_path / "p.pdf")[3] <= PAPER_PT["letter"][1] - 25.0
     assert "live values, not smoothed" in read_words(tmp_path / "p.pdf")
 
 
@@ -302,6 +289,15 @@ def test_report_of_an_older_result_names_the_newer_one() -> None:
     said = "An older result: there is a newer one of the same recording."
     for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
         assert (said in warning_lines(build_session_report(session, history=history).results)) is is_older
+
+
+def test_reports_number_the_session_of_its_hand_and_show_the_other_one() -> None:
+    history = FakeSessions().history("linden")
+    right, (left,) = [one for one in history if one.side == "right"], [one for one in history if one.side == "left"]
+    assert report().session_number == 7 == len(right)
+    assert build_progress_report(right).progress.other_hand is None
+    assert build_progress_report(right, other_hand=left).progress.other_hand is left
+    assert build_progress_report(history).progress.other_hand is left
 
 
 def test_report_of_a_pseudonym_with_slashes_has_a_name_of_one_file() -> None:

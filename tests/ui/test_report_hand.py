@@ -45,18 +45,18 @@ def test_report_hand_page_has_fingers_totals_and_visibility(store: FakeHandSessi
         for cell in row:
             assert plain(cell_text(cell)) in words
             assert isinstance(cell, str) or plain(cell.subtext) in words
+    assert overlapping_words(path) == []
     for head in ("MCP", "PIP", "DIP", "TAM", "Flexion–extension", "Partly occluded", "DIP not measured"):
         assert head in words
     assert LEGAL_SENTENCE in words
 
 
-@pytest.mark.parametrize("code", ["en", "de", "it"])
+@pytest.mark.parametrize("code", ["de", "it"])
 def test_report_hand_table_cells_do_not_overlap(store: FakeHandSessions, tmp_path: Path, code: str) -> None:
     first = figures_once(store.session("hand-3"))
     made = build_session_report(store.session("hand-7"), history=store.history("x"), language=code)
-    for number, previous in enumerate((None, first)):
-        report = replace(made, previous=previous, other_hand=first)
-        assert overlapping_words(write_session_report(report, tmp_path / f"{number}.pdf")) == []
+    report = replace(made, motion=None, previous=first, other_hand=first)
+    assert overlapping_words(write_session_report(report, tmp_path / "x.pdf")) == []
 
 
 def test_hand_that_was_seen_all_time_is_judged_joint_by_joint() -> None:
