@@ -29,7 +29,7 @@ from carpus.ui.report.session_page import build_session_report
 from tests.commands import Command
 from tests.formats.takes import store_session
 from tests.records.samples import T0, store_patient
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, write_closed_journal
+from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, write_journal
 from tests.ui.printed import read_words
 
 ROOT = Path(__file__).parents[2]
@@ -46,7 +46,8 @@ def test_sessions_and_raw_pictures_are_for_their_owner(tmp_path: Path) -> None:
         assert mode(hidden) == 0o600
         writer.append(make_frame(0))
     assert mode(path) == 0o600
-    assert mode(write_closed_journal(tmp_path / "s.journal", 0)) == 0o600
+    write_journal(tmp_path / "s.journal").close()
+    assert mode(tmp_path / "s.journal") == 0o600
     with RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", Camera(500, 500, 320, 240), True, None, 30.0, {})):
         assert mode(tmp_path / "s.carpusraw") == 0o600
 
