@@ -8,9 +8,7 @@ import platform
 import sys
 from importlib import import_module
 
-PARTS = {
-    "start": "starting", "tracking": "tracking", "whole-hand": "whole_hand", "batch": "batch", "window": "window",
-}  # fmt: skip
+PARTS = {"start": "starting", "tracking": "tracking", "batch": "batch", "window": "window"}
 """What is measured, and the module that does it."""
 
 
@@ -22,7 +20,6 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("parts", nargs="*", choices=[*PARTS, []], help=f"{', '.join(PARTS)}; all when none is named")
     parser.add_argument("--seconds", type=float, default=120.0, help="length of the window's run")
-    parser.add_argument("--raw", action="store_true", help="the window's run stores the raw pictures too")
     parser.add_argument("--hand", action="store_true", help="the window's run measures the whole hand, 21 markers")
     parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
     arguments = parser.parse_args()
@@ -34,8 +31,7 @@ def main() -> int:
     print(f"CPU time; ratios to the yardstick of the same run. Load at the start: {load:.1f}\n")
     options: dict[str, dict[str, object]] = {
         "tracking": {"rounds": arguments.rounds},
-        "whole-hand": {"rounds": arguments.rounds},
-        "window": {"seconds": arguments.seconds, "pictures": arguments.raw, "whole_hand": arguments.hand},
+        "window": {"seconds": arguments.seconds, "whole_hand": arguments.hand},
     }
     for part in (one for one in PARTS if one in parts):
         for text in import_module(f"tests.bench.{PARTS[part]}").report(**options.get(part, {})):

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import tempfile
-import threading
 import time
 from array import array
 from collections.abc import Callable, Iterator
@@ -28,7 +26,6 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
-from carpus.core.session.reader import read_session
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from carpus.core.simulation.spec import RecordingSpec
@@ -36,8 +33,6 @@ from carpus.ui.screens.live.screen import LiveScreen
 
 SIZE_PX = (1920, 1080)
 FPS = 30.0
-SETTLED_S = 10.0
-"""Memory is compared from here on: by then every buffer has its size."""
 REST_S = 30.0
 """The practice patient is asked to move again so often."""
 BEAT_MS = 10
@@ -53,44 +48,24 @@ class Run:
     drawn_at_s: array[float] = field(default_factory=lambda: array("d"))
     resident_mb: list[tuple[float, float]] = field(default_factory=list)
     late_ms: array[float] = field(default_factory=lambda: array("d"))
-    """How late each beat of the window's thread came, and the CPU time that this thread took since the one before, in
-    turn: an array, or what watches would take the memory that it looks for."""
-    collected_ms: list[float] = field(default_factory=list)
-    """CPU time of each run of Python's collector in the window's thread."""
+    """How late each beat of the window's thread came: an array, or what watches would take the memory that it looks
+    for."""
 
 
-class Pulse:
+class Pulse(QTimer):
     """A beat every few milliseconds in the window's thread: how late it comes is how long nobody was answered."""
 
     def __init__(self, live: LiveScreen, run: Run) -> None:
-        self._run = run
-        self._collecting_s = 0.0
-        self._thread = threading.get_ident()
-        self._beat_s, self._cpu_s = time.monotonic(), time.thread_time()
-        self._timer = QTimer(live)
-        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
-        self._timer.timeout.connect(self._beat)
-        self._timer.start(BEAT_MS)
-        gc.callbacks.append(self._collect)
-
-    def end(self) -> None:
-        """Watch no more."""
-        gc.callbacks.remove(self._collect)
-        self._timer.stop()
+        super().__init__(live)
+        self._run, self._beat_s = run, time.monotonic()
+        self.setTimerType(Qt.TimerType.PreciseTimer)
+        self.timeout.connect(self._beat)
+        self.start(BEAT_MS)
 
     def _beat(self) -> None:
-        now_s, cpu_s = time.monotonic(), time.thread_time()
-        late_ms = max(1e3 * (now_s - self._beat_s) - BEAT_MS, 0.0)
-        self._run.late_ms.extend((late_ms, 1e3 * (cpu_s - self._cpu_s)))
-        self._beat_s, self._cpu_s = now_s, cpu_s
-
-    def _collect(self, phase: str, facts: dict[str, int]) -> None:
-        if threading.get_ident() != self._thread:
-            return
-        if phase == "start":
-            self._collecting_s = time.thread_time()
-        else:
-            self._run.collected_ms.append(1e3 * (time.thread_time() - self._collecting_s))
+        now_s = time.monotonic()
+        self._run.late_ms.append(max(1e3 * (now_s - self._beat_s) - BEAT_MS, 0.0))
+        self._beat_s = now_s
 
 
 class Watcher(QObject):
@@ -138,8 +113,8 @@ def choose_whole_hand(journey: MainController) -> None:
     journey.camera.screen.primary_button.click()
 
 
-def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -> tuple[Run, dict[str, Any]]:
-    """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
+def measure(seconds: float, folder: Path, *, whole_hand: bool) -> tuple[Run, dict[str, Any]]:
+    """Record so long in the real window, on the practice patient in real time."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
     qt = create_application(["bench"])
     desktop = compose.compose(qt, settings, is_demo=True, practice_renderer=render_take)
@@ -157,7 +132,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         set_up, source = journey.current.set_up, journey.current.source
         assert set_up is not None
         assert source is not None
-        source.measuring._set_up = replace(source.measuring._set_up, stores_frames=pictures)
+        source.measuring._set_up = replace(source.measuring._set_up, stores_frames=False)
         walker.capture_frame()
         walker.click_markers(read_clicks(render_cached(make_spec(set_up)) / CLICKS_FILE).pixel)
         live, feed = journey.live.screen, source.measuring.feed
@@ -168,7 +143,7 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         again.timeout.connect(source.measuring._on_recording_started)
         again.start(round(1e3 * REST_S))
         before, start_s = feed.counters(), time.monotonic()
-        cpu_s, window_cpu_s = time.process_time(), time.thread_time()
+        window_cpu_s = time.thread_time()
         weigh = QTimer(live)
         weigh.timeout.connect(lambda: run.resident_mb.append((time.monotonic() - start_s, resident_mb())))
         weigh.start(1000)
@@ -176,21 +151,16 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         stay = QEventLoop()
         QTimer.singleShot(round(1e3 * seconds), stay.quit)
         stay.exec()
-        pulse.end()
+        pulse.stop()
         wall_s = time.monotonic() - start_s
         after = feed.counters()
         facts = {
             "wall_s": wall_s,
-            "cpu": (time.process_time() - cpu_s) / wall_s,
-            "window_cpu": (time.thread_time() - window_cpu_s) / wall_s,
             "window_cpu_ms": 1e3 * (time.thread_time() - window_cpu_s) / max(len(run.drawn_at_s), 1),
             "captured": after.captured - before.captured,
             "tracked": after.tracked - before.tracked,
             "dropped": after.dropped - before.dropped,
             "rows": after.rows_written,
-            "pictures": after.frames_written,
-            "tracked_p95_ms": after.latency_p95_ms,
-            "threads": threading.active_count(),
         }
         live.current_chart().mouse_target.removeEventFilter(watcher)
         weigh.stop()
@@ -199,8 +169,6 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         live.recording.stop()
         walker.run_until_screen("review")
         facts["stop_s"] = time.monotonic() - stop_s
-        session = read_session(desktop.library.entry(journey.current.session_id).path)
-        facts["looked_back"] = "all rows" if session.smoothed is not None else "no"
         return run, facts
     finally:
         desktop.close()
@@ -215,12 +183,6 @@ def resident_mb() -> float:
     return float("nan")
 
 
-def growth_mb_per_min(samples: list[tuple[float, float]]) -> float:
-    """Slope of memory over time once everything has its size."""
-    settled = np.array([sample for sample in samples if sample[0] >= SETTLED_S])
-    return float(60.0 * np.polyfit(settled[:, 0], settled[:, 1], 1)[0]) if len(settled) > 20 else float("nan")
-
-
 def memory_words(samples: list[tuple[float, float]]) -> str:
     """Resident memory at the start, every five minutes and at the end."""
     out, next_s = [], 0.0
@@ -231,10 +193,10 @@ def memory_words(samples: list[tuple[float, float]]) -> str:
     return ", ".join(out)
 
 
-def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) -> Iterator[str]:
+def report(seconds: float, *, whole_hand: bool = False) -> Iterator[str]:
     """Measure and tell, line by line."""
     with tempfile.TemporaryDirectory() as folder:
-        run, facts = measure(seconds, Path(folder), pictures=pictures, whole_hand=whole_hand)
+        run, facts = measure(seconds, Path(folder), whole_hand=whole_hand)
     drawn = len(run.drawn_at_s) / facts["wall_s"]
     p50, p95, most = np.percentile(run.latency_ms, (50.0, 95.0, 100.0))
     width, height = SIZE_PX
@@ -243,25 +205,12 @@ def report(seconds: float, *, pictures: bool = False, whole_hand: bool = False) 
     yield "| what | value |"
     yield "|---|---|"
     yield f"| frames captured, tracked, stored | {facts['captured']}, {facts['tracked']}, {facts['rows']} |"
-    if pictures:
-        yield f"| raw pictures stored | {facts['pictures']} |"
     yield f"| frames dropped by us | {facts['dropped']} |"
     yield f"| pictures a second | {facts['captured'] / facts['wall_s']:.1f} |"
     yield f"| drawings a second | {drawn:.1f} |"
     yield f"| frame to curve, median, p95, most | {p50:.0f}, {p95:.0f}, {most:.0f} ms |"
-    yield f"| frame to angle, p95 | {facts['tracked_p95_ms']:.1f} ms |"
-    cost_ms, share = facts["window_cpu_ms"], 100.0 * facts["window_cpu"]
-    yield f"| window's thread, a drawing | {cost_ms:.1f} ms CPU, {share:.0f} % of a core |"
-    yield f"| whole process (with reading the pictures) | {100.0 * facts['cpu']:.0f} % of a core |"
-    wall_ms, cpu_ms = np.array(run.late_ms).reshape(-1, 2).T
-    yield f"| time without an answer, 99 % and longest | {_99_most(wall_ms)} |"
-    yield f"| CPU time of the window's thread in it | {_99_most(cpu_ms)} |"
-    yield f"| of it Python's collector, longest | {max(run.collected_ms, default=0.0):.0f} ms CPU |"
+    yield f"| window's thread, a drawing | {facts['window_cpu_ms']:.1f} ms CPU |"
+    late_ms = np.percentile(run.late_ms, (99.0, 100.0))
+    yield f"| time without an answer, 99 % and longest | {late_ms[0]:.0f}, {late_ms[1]:.0f} ms |"
     yield f"| memory | {memory_words(run.resident_mb)} |"
-    yield f"| its growth | {growth_mb_per_min(run.resident_mb):+.1f} MB a minute |"
-    yield f"| looked back at while recorded | {facts['looked_back']} |"
     yield f"| from Stop to the review | {facts['stop_s']:.1f} s |"
-
-
-def _99_most(many_ms: np.ndarray) -> str:
-    return f"{np.percentile(many_ms, 99.0):.0f}, {many_ms.max():.0f} ms"
