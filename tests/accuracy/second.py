@@ -63,7 +63,7 @@ def _track_row(row: Row, seed: int) -> SecondRun:
     names = names_taken(session.markers.measured_px, found.blobs, labels, kept)
 
     time_s = (truth.timestamp_s - truth.timestamp_s[0])[kept]
-    posture = make_motion(row.motion, seed).at(time_s)
+    posture = make_motion(row.motion, seed)(time_s)
     moves = np.hstack((posture.wrist, posture.fingers))
 
     def reading(true: FloatArray, found: FloatArray, sd: FloatArray, where: NDArray[np.bool_] | None = None) -> Reading:

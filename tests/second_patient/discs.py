@@ -6,17 +6,15 @@ What the blended skin does by itself and the slip along the path make together t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.model.types import FloatArray
-from tests.second_patient.flesh import Skin
-from tests.second_patient.person import Person
-from tests.second_patient.skeleton import Bone, Posture, place_bones, rest_posture
-from tests.second_patient.skinning import dual_quaternions, move_points
+from tests.second_patient.person import Bone, Person, Posture, place_at_rest, place_bones
+from tests.second_patient.skin import Skin, dual_quaternions, move_points
 
 NAMES = ("WRIST", "CMC1", "MCP1", "IP1", "TIP1") + tuple(
     f"{joint}{k}" for k in (2, 3, 4, 5) for joint in ("MCP", "PIP", "DIP", "TIP")
@@ -58,7 +56,7 @@ class StuckDiscs:
 
 def stick_discs(person: Person, skin: Skin, rng: np.random.Generator) -> StuckDiscs:
     """A therapist sticks them, a millimetre or two off, up to five."""
-    rest = place_bones(person, rest_posture(), np.eye(3))
+    rest = place_at_rest(person)
     paths = []
     for name in NAMES:
         place, out, along = _aim(person, rest.turn[0], rest.joint_m[0], name)
@@ -150,7 +148,7 @@ def bends(posture: Posture) -> FloatArray:
         return np.sign(angle) * (1.0 - np.exp(-np.abs(angle) / over)) / (1.0 - np.exp(-full / over))
 
     q = posture.fingers
-    out = np.zeros((len(posture), len(NAMES)))
+    out = np.zeros((len(q), len(NAMES)))
     out[:, 0] = -np.tanh(posture.wrist[:, 1] / _WRIST_BEND_RAD) / np.tanh(np.radians(60.0) / _WRIST_BEND_RAD)
     out[:, 1] = law(q[:, 1], np.radians(40.0))
     out[:, 2], out[:, 3] = law(q[:, 2], np.radians(60.0)), law(q[:, 4], np.radians(60.0))
@@ -178,23 +176,16 @@ def skin_points(
     return move_points(skin.weight[corner], dual, skin.corner_m[corner] + out[:, None] * skin.normal[corner])
 
 
-def disc_points(
-    person: Person,
-    skin: Skin,
-    stuck: StuckDiscs,
-    posture: Posture,
-    chain_axes: FloatArray,
-    rows: Sequence[int] = tuple(range(len(NAMES))),
-) -> FloatArray:
-    """Centres of the discs of these ``rows`` in the room of a right hand, (N, M, 3)."""
-    rest = place_bones(person, rest_posture(), np.eye(3))
+def disc_points(person: Person, skin: Skin, stuck: StuckDiscs, posture: Posture, chain_axes: FloatArray) -> FloatArray:
+    """Centres of the discs in the room of a right hand, (N, 21, 3)."""
+    rest = place_at_rest(person)
     dual = dual_quaternions(rest, place_bones(person, posture, chain_axes))
     rise, tendon = lifts_m(person, posture)
     slip = bends(posture) * stuck.slip_m
-    out = np.empty((len(posture), len(rows), 3))
-    for i in range(len(posture)):
-        corner, share = on_paths([stuck.path[row] for row in rows], slip[i, list(rows)])
-        points = skin_points(skin, corner.ravel(), dual[i], rise[i], tendon[i]).reshape(len(rows), 6, 3)
+    out = np.empty((len(slip), len(NAMES), 3))
+    for i in range(len(slip)):
+        corner, share = on_paths(stuck.path, slip[i])
+        points = skin_points(skin, corner.ravel(), dual[i], rise[i], tendon[i]).reshape(len(NAMES), 6, 3)
         out[i] = np.einsum("mk,mkj->mj", share, points)
     return out
 
@@ -227,34 +218,27 @@ def full_bend(name: str) -> tuple[Posture, Bone]:
     return Posture(wrist, np.zeros((2, 3)), fingers, np.zeros(2), np.zeros(2)), bone
 
 
-def measure_glide(person: Person, skin: Skin, path: Path, name: str) -> Callable[[float], float]:
-    """How far a disc moves over the bone beneath it, along its way, between the two postures of :func:`full_bend`, as
-    a function of its slip along the path."""
-    posture, bone = full_bend(name)
-    rest, placed = (place_bones(person, some, np.eye(3)) for some in (rest_posture(), posture))
-    dual = dual_quaternions(rest, placed)
-    rise, tendon = lifts_m(person, posture)
-    bend = bends(posture)[:, NAMES.index(name)]
-    along = path.along if bone != Bone.MC1 else rest.turn[0, bone].T @ path.along
-
-    def glide(slip_m: float) -> float:
-        seen = []
-        for i in (0, 1):
-            corner, share = on_paths([path], bend[i : i + 1] * slip_m)
-            disc = share[0] @ skin_points(skin, corner[0], dual[i], rise[i], tendon[i])
-            seen.append(placed.turn[i, bone].T @ (disc - placed.joint_m[i, bone]))
-        return float((seen[1] - seen[0]) @ along)
-
-    return glide
-
-
 def _solve_slip(person: Person, skin: Skin, paths: Sequence[Path]) -> FloatArray:
     """Slip along the path with which the whole glide of palm and MCP1 is what was drawn; of the others what was drawn
     is the slip itself, for the bending joint's own skin comes on top."""
-    slip = np.array([person.glide_m.get(name, 0.0) for name in NAMES])
+    slip, rest = np.array([person.glide_m.get(name, 0.0) for name in NAMES]), place_at_rest(person)
     for name in (*PALM, "MCP1"):
         row = NAMES.index(name)
-        glide, want, found = measure_glide(person, skin, paths[row], name), slip[row], 0.0
+        path, want, found = paths[row], slip[row], 0.0
+        posture, bone = full_bend(name)
+        placed, bend = place_bones(person, posture, np.eye(3)), bends(posture)[:, row]
+        dual, (rise, tendon) = dual_quaternions(rest, placed), lifts_m(person, posture)
+        along = path.along if bone != Bone.MC1 else rest.turn[0, bone].T @ path.along
+
+        def glide(slip_m: float) -> float:
+            """How far the disc moves over the bone beneath it, along its way, between the two postures."""
+            seen = []
+            for i in (0, 1):
+                corner, share = on_paths([path], bend[i : i + 1] * slip_m)  # noqa: B023
+                disc = share[0] @ skin_points(skin, corner[0], dual[i], rise[i], tendon[i])  # noqa: B023
+                seen.append(placed.turn[i, bone].T @ (disc - placed.joint_m[i, bone]))  # noqa: B023
+            return float((seen[1] - seen[0]) @ along)  # noqa: B023
+
         for _ in range(_ROUNDS):
             gain = max((glide(found + _STEP_M) - glide(found)) / _STEP_M, 0.25)
             found = float(np.clip(found + (want - glide(found)) / gain, -_MOST_SLIP_M, _MOST_SLIP_M))

@@ -1,19 +1,21 @@
-"""The patient as one body: bones, skin, discs, all at any moment, on either side, in the room.
+"""The patient as one body before a camera of its own: bones, skin, discs at any moment, on either side, and the truth.
 
 The room of a RIGHT hand has the axes of B where the hand lies straight; a left hand is the whole mirrored at y = 0.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from carpus.core.model.camera import Camera
+from carpus.core.model.hand.protocols import MarkerProtocol, get_protocol
 from carpus.core.model.types import FloatArray, Side
 from tests.second_patient.discs import (
     NAMES,
+    PALM,
     StuckDiscs,
     bends,
     disc_points,
@@ -22,14 +24,62 @@ from tests.second_patient.discs import (
     skin_points,
     stick_discs,
 )
-from tests.second_patient.flesh import Skin, make_skin
-from tests.second_patient.person import Person, draw_person
-from tests.second_patient.skeleton import Bone, Placed, Posture, place_bones, rest_posture
-from tests.second_patient.skinning import blended_turn, dual_quaternions, turn_vectors
+from tests.second_patient.motions import Motion, Row
+from tests.second_patient.person import Bone, Person, Placed, Posture, about, draw_person, place_at_rest, place_bones
+from tests.second_patient.skin import Skin, blended_turn, dual_quaternions, make_skin, turn_vectors
 
 MIRROR = np.array([1.0, -1.0, 1.0])
+_DOWN = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+"""From the room to a camera that looks straight down, fingers to the top of the picture."""
 _HELD_M = 0.016
 _IN_PLANE = [NAMES.index(name) for name in ("WRIST", "MCP2", "MCP3", "MCP4", "MCP5")]
+
+
+@dataclass(frozen=True, slots=True)
+class Hung:
+    """A camera in the room: ``turn`` (3, 3) and ``shift_m`` (3,) take points of the room to its axes; the table top is
+    ``table_m`` below the room's zero."""
+
+    camera: Camera
+    turn: FloatArray
+    shift_m: FloatArray
+    table_m: float
+
+    def to_camera(self, room_m: FloatArray) -> FloatArray:
+        """Points (..., 3) of the room in the camera's axes."""
+        return room_m @ self.turn.T + self.shift_m
+
+    def pixel(self, cam_m: FloatArray) -> FloatArray:
+        """Where the lens puts points (..., 3) in the picture, distortion included; (..., 2)."""
+        x, y = cam_m[..., 0] / cam_m[..., 2], cam_m[..., 1] / cam_m[..., 2]
+        k1, k2, p1, p2, k3 = self.camera.distortion
+        r2 = x * x + y * y
+        radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
+        u = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)
+        v = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y
+        camera = self.camera
+        return np.stack((camera.fx_px * u + camera.cx_px, camera.fy_px * v + camera.cy_px), axis=-1)
+
+
+def hang_camera(seed: int, mirror: FloatArray) -> Hung:
+    """The camera of a seed over a hand whose room is ``mirror``-ed."""
+    rng = np.random.default_rng([seed, 1511])
+    focal = float(rng.uniform(522.0, 552.0))
+    camera = Camera(
+        round(focal, 2),
+        round(focal * float(rng.uniform(0.997, 1.003)), 2),
+        round(319.5 + float(rng.uniform(-7.0, 7.0)), 2),
+        round(239.5 + float(rng.uniform(-7.0, 7.0)), 2),
+        distortion=(round(float(rng.uniform(0.0, 0.04)), 4), round(float(rng.uniform(-0.08, 0.0)), 4), 0.0, 0.0, 0.0),
+        origin="file",
+    )
+    tilt, lean, yaw = np.radians(rng.uniform([-5.0, -5.0, -14.0], [6.0, 5.0, 14.0]))
+    turn = about(0, tilt) @ about(1, lean) @ about(2, yaw) @ _DOWN
+    middle = np.array([0.025, 0.0, 0.0])
+    distance = float(rng.uniform(0.64, 0.76))
+    aim = np.array([rng.uniform(-0.03, 0.03), rng.uniform(0.0, 0.03), distance])
+    shift = aim - turn @ (mirror * middle)
+    return Hung(camera, turn, shift, float(rng.uniform(0.085, 0.12)))
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -65,13 +115,13 @@ class Patient:
         """All bones, of the right hand."""
         return place_bones(self.person, posture, self.chain_axes)
 
-    def discs_m(self, posture: Posture, rows: Sequence[int] = tuple(range(len(NAMES)))) -> FloatArray:
-        """Centres of the discs of these ``rows`` in the room, (N, M, 3)."""
-        return self.mirror * disc_points(self.person, self.skin, self.stuck, posture, self.chain_axes, rows)
+    def discs_m(self, posture: Posture) -> FloatArray:
+        """Centres of the discs in the room, (N, 21, 3)."""
+        return self.mirror * disc_points(self.person, self.skin, self.stuck, posture, self.chain_axes)
 
     def body(self, posture: Posture) -> Body:
         """Skin and discs of a single moment."""
-        rest = place_bones(self.person, rest_posture(), np.eye(3))
+        rest = place_at_rest(self.person)
         dual = dual_quaternions(rest, self.placed(posture))[0]
         rise, tendon = (part[0] for part in lifts_m(self.person, posture))
         point = skin_points(self.skin, np.arange(len(self.skin.corner_m)), dual, rise, tendon)
@@ -128,18 +178,107 @@ def frame_of_discs(disc_m: FloatArray, out: FloatArray) -> FloatArray:
 def _held(skin: Skin, stuck: StuckDiscs) -> Skin:
     """The skin around each disc of the palm fast on its bone."""
     weight = skin.weight.copy()
-    bones = {
-        "WRIST": Bone.FIXED,
-        "CMC1": Bone.FIXED,
-        "MCP2": Bone.FIXED,
-        "MCP3": Bone.FIXED,
-        "MCP4": Bone.MC4,
-        "MCP5": Bone.MC5,
-    }
-    for name, bone in bones.items():
+    for name in PALM:
+        bone = {"MCP4": Bone.MC4, "MCP5": Bone.MC5}.get(name, Bone.FIXED)
         path = stuck.path[NAMES.index(name)]
-        middle = path.share[len(path.share) // 2] @ skin.corner_m[path.corner[len(path.share) // 2]]
-        near = np.linalg.norm(skin.corner_m - middle, axis=1) < _HELD_M
-        weight[near] = 0.0
-        weight[near, bone] = 1.0
+        row = len(path.share) // 2
+        near = np.linalg.norm(skin.corner_m - path.share[row] @ skin.corner_m[path.corner[row]], axis=1) < _HELD_M
+        weight[near], weight[near, bone] = 0.0, 1.0
     return Skin(skin.corner_m, skin.normal, skin.triangle, weight, skin.knuckle, skin.tendon)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Truth:
+    """N frames, M discs of the protocol, 21 finger angles (0 with ``wrist6``).
+
+    The wrist is the fixed unit (capitate, metacarpals 2 and 3), its neutral pose the first frame; W0 stands on the
+    discs of that frame. ``position_m`` (N, 3) of the WRIST disc and ``rotation_w2_w0`` (N, 3, 3) of the bones;
+    ``angles_rad`` (N, 3) clinical; ``joint_angles_rad`` (N, J) of the bones, those of ring and little finger against
+    their own metacarpals; ``disc_position_cam_m`` (N, M, 3) centres on the skin; ``disc_pixel`` (N, M, 2) as a lens
+    without distortion sees them; ``visible_share`` (N, M) of each disc's paper.
+    """
+
+    side: Side
+    protocol: MarkerProtocol
+    camera: Camera
+    timestamp_s: FloatArray
+    position_m: FloatArray
+    rotation_w2_w0: FloatArray
+    angles_rad: FloatArray
+    joint_angles_rad: FloatArray
+    joint_position_w0_m: FloatArray
+    disc_position_cam_m: FloatArray
+    disc_pixel: FloatArray
+    visible_share: FloatArray
+    marker_position_w0_m: FloatArray
+    rotation_w0_cam: FloatArray
+    translation_w0_cam_m: FloatArray
+
+
+def compute_truth(
+    row: Row, patient: Patient, motion: Motion, hung: Hung, time_s: FloatArray, stamp_s: FloatArray
+) -> Truth:
+    """True values at times (N,) after the first; nothing is rendered, so what is visible is still unknown."""
+    protocol = get_protocol(row.protocol)
+    rows = [NAMES.index(name) for name in protocol.markers]
+    posture = motion(time_s)
+    placed = patient.placed(posture)
+    disc = patient.discs_m(posture)
+    turn0 = _fixed(patient, placed)[0]
+    disc0 = patient.discs_m(motion(np.zeros(1)))[0]
+    axes = frame_of_discs(disc0, turn0[:, 2])
+    wrist = NAMES.index("WRIST")
+    rotation = axes.T @ _fixed(patient, placed) @ turn0.T @ axes
+    cam = hung.to_camera(disc[:, rows])
+    return Truth(
+        side=patient.side,
+        protocol=protocol,
+        camera=hung.camera,
+        timestamp_s=stamp_s,
+        position_m=(disc[:, wrist] - disc0[wrist]) @ axes,
+        rotation_w2_w0=rotation,
+        angles_rad=clinical(rotation, patient.side),
+        joint_angles_rad=posture.fingers if protocol.has_fingers else np.empty((len(time_s), 0)),
+        joint_position_w0_m=(joint_centres(patient, placed)[:, rows] - disc0[wrist]) @ axes,
+        disc_position_cam_m=cam,
+        disc_pixel=hung.camera.project(cam),
+        visible_share=np.full((len(time_s), len(rows)), np.nan),
+        marker_position_w0_m=(disc0[rows] - disc0[wrist]) @ axes,
+        rotation_w0_cam=hung.turn @ axes,
+        translation_w0_cam_m=hung.to_camera(disc0[wrist]),
+    )
+
+
+def _fixed(patient: Patient, placed: Placed) -> FloatArray:
+    """Turns (N, 3, 3) of the fixed unit in the room, mirrored for a left hand."""
+    mirror = np.diag(patient.mirror)
+    return mirror @ placed.turn[:, Bone.FIXED] @ mirror
+
+
+def joint_centres(patient: Patient, placed: Placed) -> FloatArray:
+    """Joint centres under the discs and the ends of the last links, in the room (N, 21, 3): the last link ends under
+    the disc on the nail."""
+    person = patient.person
+    out = np.empty((len(placed.turn), len(NAMES), 3))
+    joint = placed.joint_m
+    out[:, 0] = joint[:, Bone.FIXED]
+    out[:, 1:4] = joint[:, Bone.MC1 : Bone.MC1 + 3]
+    out[:, 4] = joint[:, Bone.DP1] + 0.8 * person.thumb_m[2] * placed.turn[:, Bone.DP1, :, 0]
+    for ray in range(4):
+        first = Bone.PP2 + 3 * ray
+        out[:, 5 + 4 * ray : 8 + 4 * ray] = joint[:, first : first + 3]
+        out[:, 8 + 4 * ray] = joint[:, first + 2] + 0.74 * person.finger_m[ray, 2] * placed.turn[:, first + 2, :, 0]
+    return patient.mirror * out
+
+
+def clinical(rotation: FloatArray, side: Side) -> FloatArray:
+    """Deviation, flexion, pro-supination (N, 3) of rotations (N, 3, 3), + radial, + flexion, + supination."""
+    sign = 1.0 if side == "right" else -1.0
+    return np.stack(
+        (
+            sign * np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0]),
+            np.arcsin(np.clip(-rotation[:, 2, 0], -1.0, 1.0)),
+            sign * np.arctan2(rotation[:, 2, 1], rotation[:, 2, 2]),
+        ),
+        axis=1,
+    )

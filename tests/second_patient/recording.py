@@ -17,13 +17,10 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
 from carpus.core.model.types import FloatArray, Side
-from tests.second_patient.camera import Hung, hang_camera
 from tests.second_patient.discs import NAMES
-from tests.second_patient.look import make_look, render_color, render_depth
 from tests.second_patient.motions import SECONDS, Motion, Row, make_motion
-from tests.second_patient.patient import Patient, make_patient
-from tests.second_patient.sensor import expose, make_sensor, read_depth
-from tests.second_patient.truth import Truth, compute_truth
+from tests.second_patient.patient import Hung, Patient, Truth, compute_truth, hang_camera, make_patient
+from tests.second_patient.pictures import expose, make_look, make_sensor, read_depth, render_color, render_depth
 
 CLICKS_FILE, VISIBLE_FILE = "calibration.json", "visible_share.npy"
 # Read when this is imported: a file edited while its recording is drawn must not name what it did not draw.
@@ -49,16 +46,11 @@ class Take:
     truth: Truth
 
 
-def choose_side(seed: int) -> Side:
-    """Sides by parity, as in the table's other rows."""
-    return "left" if seed % 2 else "right"
-
-
 def make_take(row: Row, seed: int, side: Side | None = None, seconds: float = SECONDS) -> Take:
-    """Everything about the recording of a row and a seed."""
+    """Everything about the recording of a row and a seed; sides by parity, as in the table's other rows."""
     rng = np.random.default_rng([seed, 2003])
     motion = make_motion(row.motion, seed)
-    patient = make_patient(seed, side or choose_side(seed), motion.at(np.zeros(1)), rigid=row.rigid)
+    patient = make_patient(seed, side or ("left" if seed % 2 else "right"), motion(np.zeros(1)), rigid=row.rigid)
     hung = hang_camera(seed, patient.mirror)
     count = int(seconds * FPS)
     time_s = np.arange(count) / FPS + np.concatenate(([0.0], rng.uniform(-8e-4, 8e-4, count - 1)))
@@ -100,13 +92,13 @@ def record_take(take: Take, folder: Path) -> Truth:
     rows = [NAMES.index(name) for name in truth.protocol.markers]
     share = np.empty_like(truth.visible_share)
     lists: dict[str, list[str]] = {"rgb": [], "depth": []}
-    posture, later = take.motion.at(take.time_s), take.motion.at(take.depth_time_s)
+    posture, later = take.motion(take.time_s), take.motion(take.depth_time_s)
     for i in range(len(take.time_s)):
-        now, then = (_moment(every, i) for every in (posture, later))
-        clean = render_color(take.patient, take.hung, look, take.patient.body(now), stuck)
+        now, then = (every.moment(i) for every in (posture, later))
+        light, seen = render_color(take.patient, take.hung, look, take.patient.body(now), stuck)
         depth = render_depth(take.patient, take.hung, look, take.patient.body(then))
-        share[i] = clean.visible_share[rows]
-        color = expose(sensor, clean.light, i)
+        share[i] = seen[rows]
+        color = expose(sensor, light, i)
         for kind, stamp_s, picture in (
             ("rgb", truth.timestamp_s[i], cv2.cvtColor(color, cv2.COLOR_RGB2BGR)),
             ("depth", EPOCH_S + take.depth_time_s[i], read_depth(sensor, depth, i)),
@@ -123,10 +115,6 @@ def record_take(take: Take, folder: Path) -> Truth:
         text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
         (folder / name).write_text(text, encoding="utf-8")
     return truth
-
-
-def _moment(posture: object, i: int) -> object:
-    return type(posture)(*(getattr(posture, name)[i : i + 1] for name in posture.__slots__))  # type: ignore[attr-defined]
 
 
 def cache_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:

@@ -11,12 +11,12 @@ import pytest
 from carpus.core.calibration.clicks_file import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.model.hand.clinical_angles import wrist_axes
-from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
+from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS, joint_angle_names
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.session.reader import read_session
 from tests.second_patient import recording
 from tests.second_patient.discs import NAMES, PALM
-from tests.second_patient.motions import ROWS, Row, row_named
+from tests.second_patient.motions import ROWS, Row
 from tests.second_patient.recording import CLICKS_FILE, Take, make_take, record_take
 from tests.sources import ROOT, SOURCES, nodes
 
@@ -24,7 +24,11 @@ pytestmark = pytest.mark.xdist_group("second patient")
 """To grow a person costs more than all else that is done with one: each is grown once.
 
 It is a ruler for ``make accuracy``, which no change of the program bends: most is looked at thoroughly only."""
-CUPPED = row_named("hand: power grip, cupped palm")
+CUPPED, QUIET, RESTING = (
+    next(row for row in ROWS if row.name == name)
+    for name in ("hand: power grip, cupped palm", "wrist, nothing glides", "rest, fingers open and close")
+)
+ANGLES = joint_angle_names(dip_free=True)
 
 
 @pytest.fixture(scope="module")
@@ -67,12 +71,8 @@ def test_settings_are_not_chosen_on_it() -> None:
     assert not {user for user in users if not user.startswith(allowed)}
 
 
-def test_discs_are_in_the_protocols_order() -> None:
-    assert HAND21.markers == NAMES
-    assert PALM_MARKERS == PALM
-
-
 def test_palm_and_neutral_frame_are_as_the_contract_says(take: Take) -> None:
+    assert (HAND21.markers, PALM_MARKERS) == (NAMES, PALM)
     truth = take.truth
     palm = truth.disc_position_cam_m[0, list(truth.protocol.palm)]
     axes = wrist_axes(palm, dorsal_direction=np.array([0.0, 0.0, -1.0]))
@@ -88,7 +88,7 @@ def test_truth_goes_round(take: Take) -> None:
     truth = take.truth
     wrist = truth.translation_w0_cam_m + truth.position_m @ truth.rotation_w0_cam.T
     assert np.allclose(wrist, truth.disc_position_cam_m[:, 0], atol=1e-9)
-    rigid = make_take(row_named("wrist, nothing glides"), 12).truth
+    rigid = make_take(QUIET, 12).truth
     carried = rigid.position_m[:, None] + np.einsum("nij,mj->nmi", rigid.rotation_w2_w0, rigid.marker_position_w0_m)
     cam = rigid.translation_w0_cam_m + carried @ rigid.rotation_w0_cam.T
     assert np.abs(cam - rigid.disc_position_cam_m).max() < 2e-5
@@ -103,17 +103,10 @@ def test_fingers_angles_are_the_chains_of_the_reference(take: Take) -> None:
     link = np.einsum("nji,nkj->nki", truth.rotation_w2_w0, link)
     pitch = -np.arctan2(link[..., 2], np.hypot(link[..., 0], link[..., 1]) * np.sign(link[..., 0]))
     bend = np.unwrap(np.column_stack((pitch[:, 0], np.diff(np.unwrap(pitch, axis=1), axis=1))), axis=0)
-    names = [HAND21_ANGLES.index(name) for name in ("MCP2_flexion", "PIP2_flexion", "DIP2_flexion")]
+    names = [ANGLES.index(name) for name in ("MCP2_flexion", "PIP2_flexion", "DIP2_flexion")]
     assert np.allclose(bend, truth.joint_angles_rad[:, names], atol=1e-6)
     azimuth = np.arctan2(link[0, 0, 1], link[0, 0, 0]) - patient.person.fan_rad[1]
-    assert azimuth == pytest.approx(truth.joint_angles_rad[0, HAND21_ANGLES.index("MCP2_abduction")], abs=1e-6)
-
-
-HAND21_ANGLES = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion") + tuple(
-    name.format(k)
-    for k in (2, 3, 4, 5)
-    for name in ("MCP{}_abduction", "MCP{}_flexion", "PIP{}_flexion", "DIP{}_flexion")
-)
+    assert azimuth == pytest.approx(truth.joint_angles_rad[0, ANGLES.index("MCP2_abduction")], abs=1e-6)
 
 
 @pytest.mark.thorough
@@ -148,7 +141,7 @@ def test_second_patient_starts_still_and_stays_in_frame(row: Row, monkeypatch: p
 @pytest.mark.thorough
 def test_recording_is_tracked_like_its_truth(tmp_path: Path) -> None:
     folder = tmp_path / "take"
-    truth = record_take(make_take(row_named("rest, fingers open and close"), 12, seconds=0.9), folder)
+    truth = record_take(make_take(RESTING, 12, seconds=0.9), folder)
     output = tmp_path / "session.h5"
     source = TumFolder(folder)
     track_recording(source, read_clicks(folder / CLICKS_FILE), output, TrackSettings())

@@ -1,7 +1,8 @@
-"""The skin at rest as a triangle mesh, and how it hangs on the bones.
+"""The skin at rest as a triangle mesh, how it hangs on the bones, and how they move it.
 
 Flesh is a density along strands (elliptic sections that change from station to station); where the densities add up
-to one, there is the skin. It is cut out of a grid as a net of quadrangles whose corners are drawn onto the skin.
+to one, there is the skin. It is cut out of a grid as a net of quadrangles whose corners are drawn onto the skin. Bones
+move it by blended dual quaternions, which keep the girth of a bent joint.
 """
 
 from __future__ import annotations
@@ -9,18 +10,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
 
 from carpus.core.model.types import FloatArray
-from tests.second_patient.person import Person
-from tests.second_patient.skeleton import BONES, Bone, Placed, bone_length_m, place_bones, rest_posture
+from tests.second_patient.person import BONES, Bone, Person, Placed, place_at_rest
 
 _HARDNESS = 4.5
-_STEP_M = 0.0042
-_ARM_STEP_M = 0.011
+_STEP_M, _ARM_STEP_M = 0.0042, 0.011
 _ARM_FROM_M, _HAND_FROM_M = -0.235, -0.030
 _LEAST_WEIGHT = 0.01
 _KNUCKLE_BEYOND_M = 0.0015
+_PARENT = [1, 2, 2, 2, 2, 2, 5, 6, 2, 8, 9, 2, 11, 12, 3, 14, 15, 4, 17, 18]
+_ORDER = [Bone.FOREARM, Bone.ELBOW, *range(3, BONES)]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -53,7 +55,7 @@ class Skin:
 
 def make_skin(person: Person) -> Skin:
     """The person's skin."""
-    rest = place_bones(person, rest_posture(), np.eye(3))
+    rest = place_at_rest(person)
     strands = _strands(person, rest)
     corner, triangle = _net(strands)
     for _ in range(4):
@@ -66,9 +68,9 @@ def make_skin(person: Person) -> Skin:
     return Skin(corner, normal, triangle, _weights(person, rest, corner), *_lifts(person, corner, normal))
 
 
-def _strand(unit_m: float, centre_m: FloatArray, sections: list[tuple[float, float, float]], up: FloatArray) -> Strand:
+def _strand(unit_m: float, centre_m: FloatArray, sections: ArrayLike, up: FloatArray) -> Strand:
     """A strand with half width, height over and height under its middle at each station, in units of ``unit_m``."""
-    width, over, under = unit_m * np.array(sections).T
+    width, over, under = unit_m * np.asarray(sections).T
     return Strand(np.asarray(centre_m), width, over, under, up)
 
 
@@ -90,17 +92,11 @@ def _strands(person: Person, rest: Placed) -> list[Strand]:
         f = (0.97, 1.0, 0.95, 0.86)[ray - 1]
         pip, dip, tip = np.cumsum(person.finger_m[ray - 1])
         places = np.array([0.0, 0.45 * pip, pip, 0.5 * (pip + dip), dip, 0.5 * (dip + tip), tip - 5.0 * f * mm])
-        sections = [
-            (9.6 * f, knuckle - 0.8, 11 * f),
-            (8.8 * f, middle + 0.2, 9.5 * f),
-            (9.3 * f, middle, 8.6 * f),
-            (8.0 * f, middle - 1.0, 8.4 * f),
-            (8.3 * f, end, 7.0 * f),
-            (8.0 * f, deep["TIP"], 7.3 * f),
-            (6.9 * f, 4.6, 5.4 * f),
-        ]
+        wide = f * np.array([9.6, 8.8, 9.3, 8.0, 8.3, 8.0, 6.9])
+        over = [knuckle - 0.8, middle + 0.2, middle, middle - 1.0, end, deep["TIP"], 4.6]
+        under = f * np.array([11, 9.5, 8.6, 8.4, 7.0, 7.3, 5.4])
         turn = rest.turn[0, first]
-        out.append(_strand(unit, head + places[:, None] * turn[:, 0], sections, turn[:, 2]))
+        out.append(_strand(unit, head + places[:, None] * turn[:, 0], np.column_stack((wide, over, under)), turn[:, 2]))
     out.append(_thumb(person, rest))
     mcp1, index = rest.joint_m[0, Bone.PP1], person.knuckle_m[0]
     thenar = [mm * np.array([16.0, 12.0, -13.0]), 0.55 * mcp1 + 0.45 * mm * np.array([46.0, 20.0, -16.0])]
@@ -119,15 +115,9 @@ def _thumb(person: Person, rest: Placed) -> Strand:
     ahead = rest.turn[0, Bone.DP1, :, 0]
     tip = ip + person.thumb_m[2] * ahead
     centre = [cmc, 0.55 * mcp + 0.45 * cmc, mcp, 0.5 * (mcp + ip), ip, 0.5 * (ip + tip), tip - 6.0 * mm * ahead]
-    sections = [
-        (11, 9, 13),
-        (10.5, 8.8, 13),
-        (10.5, 8.8, 10.5),
-        (9.6, 7.2, 10),
-        (10, 7.2, 8.4),
-        (9.6, 5.6, 8.2),
-        (7.2, 4.6, 6),
-    ]
+    sections = np.column_stack(
+        ([11, 10.5, 10.5, 9.6, 10, 9.6, 7.2], [9, 8.8, 8.8, 7.2, 7.2, 5.6, 4.6], [13, 13, 10.5, 10, 8.4, 8.2, 6])
+    )
     return _strand(person.girth[0] * mm, np.stack(centre), sections, rest.turn[0, Bone.PP1, :, 2])
 
 
@@ -183,20 +173,17 @@ def _net(strands: list[Strand]) -> tuple[FloatArray, NDArray[np.int64]]:
     total, count = np.zeros((*cell, 3)), np.zeros(cell)
     for axis in range(3):
         crossing = np.diff(inside.astype(np.int8), axis=axis) != 0
-        first = value[tuple(slice(0, -1) if i == axis else slice(None) for i in range(3))]
-        second = value[tuple(slice(1, None) if i == axis else slice(None) for i in range(3))]
-        share = np.where(crossing, first / np.where(crossing, first - second, 1.0), 0.0)
-        begin = grid[tuple(slice(0, -1) if i == axis else slice(None) for i in range(3))]
-        end = grid[tuple(slice(1, None) if i == axis else slice(None) for i in range(3))]
-        point = begin + share[..., None] * (end - begin)
+        near, next_ = (tuple(one if i == axis else slice(None) for i in range(3)) for one in (np.s_[:-1], np.s_[1:]))
+        first = value[near]
+        share = np.where(crossing, first / np.where(crossing, first - value[next_], 1.0), 0.0)
+        point = grid[near] + share[..., None] * (grid[next_] - grid[near])
         others = [i for i in range(3) if i != axis]
-        for j in (0, 1):
-            for k in (0, 1):
-                cut = [slice(None)] * 3
-                for i, step in zip(others, (j, k), strict=True):
-                    cut[i] = slice(step, cell[i] + step)
-                total += np.where(crossing[tuple(cut)][..., None], point[tuple(cut)], 0.0)
-                count += crossing[tuple(cut)]
+        for steps in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            cut = [slice(None)] * 3
+            for i, step in zip(others, steps, strict=True):
+                cut[i] = slice(step, cell[i] + step)
+            total += np.where(crossing[tuple(cut)][..., None], point[tuple(cut)], 0.0)
+            count += crossing[tuple(cut)]
     used = count > 0
     number = np.full(cell, -1, dtype=np.int64)
     number[used] = np.arange(int(used.sum()))
@@ -210,10 +197,10 @@ def _net(strands: list[Strand]) -> tuple[FloatArray, NDArray[np.int64]]:
         leaves = crossing[tuple(place.T)] < 0
         ring = []
         for step_b, step_c in ((-1, -1), (0, -1), (0, 0), (-1, 0)):
-            near = place.copy()
-            near[:, b] += step_b
-            near[:, c] += step_c
-            ring.append(number[tuple(near.T)])
+            beside = place.copy()
+            beside[:, b] += step_b
+            beside[:, c] += step_c
+            ring.append(number[tuple(beside.T)])
         quad = np.stack(ring, axis=1)
         quad = np.where(leaves[:, None], quad, quad[:, ::-1])
         triangles += [quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]]
@@ -222,11 +209,11 @@ def _net(strands: list[Strand]) -> tuple[FloatArray, NDArray[np.int64]]:
 
 def _weights(person: Person, rest: Placed, corner_m: FloatArray) -> FloatArray:
     """Weights (V, 20): the nearer a bone, the more of it; softer over the palm and the wrist than on fingers."""
-    length = bone_length_m(person)
+    length = {Bone.MC1 + i: one for i, one in enumerate((*person.thumb_m, *person.finger_m.ravel()))}
     far = np.empty((len(corner_m), BONES))
-    for bone in range(BONES):
+    for bone, long_m in length.items():
         start = rest.joint_m[0, bone]
-        far[:, bone] = _from_segment(corner_m, start, start + length[bone] * rest.turn[0, bone, :, 0])
+        far[:, bone] = _from_segment(corner_m, start, start + long_m * rest.turn[0, bone, :, 0])
     for bone, ray in ((Bone.MC4, 3), (Bone.MC5, 4)):
         far[:, bone] = _from_segment(corner_m, person.base_m[ray], person.knuckle_m[ray - 1])
     fixed = [(np.zeros(3), person.base_m[ray]) for ray in (0, 1, 2, 3, 4)]
@@ -266,3 +253,37 @@ def _lifts(person: Person, corner_m: FloatArray, normal: FloatArray) -> tuple[Fl
         aside = np.linalg.norm((corner_m - start - np.clip(t, 0, 1)[:, None] * (head - start))[:, :2], axis=1)
         tendon.append(np.exp(-0.5 * (aside / (2.8 * mm)) ** 2) * np.clip(np.minimum(t, 1.05 - t) / 0.25, 0.0, 1.0))
     return np.stack(knuckle, axis=1) * back, np.stack(tendon, axis=1) * back
+
+
+def dual_quaternions(rest: Placed, placed: Placed) -> FloatArray:
+    """How each bone moved from rest, (N, 20, 8): turn and dual part, each on its parent's side of the sphere."""
+    turn = placed.turn @ np.swapaxes(rest.turn, -1, -2)
+    shift = placed.joint_m - np.einsum("nbij,nbj->nbi", turn, np.broadcast_to(rest.joint_m, placed.joint_m.shape))
+    real = Rotation.from_matrix(turn.reshape(-1, 3, 3)).as_quat()[:, [3, 0, 1, 2]].reshape(*turn.shape[:-2], 4)
+    for bone in _ORDER:
+        flip = np.sum(real[:, bone] * real[:, _PARENT[bone]], axis=-1) < 0.0
+        real[flip, bone] *= -1.0
+    v = real[..., 1:]
+    dual = np.concatenate((-np.sum(shift * v, axis=-1, keepdims=True), real[..., :1] * shift + np.cross(shift, v)), -1)
+    return np.concatenate((real, 0.5 * dual), axis=-1)
+
+
+def move_points(weight: FloatArray, dual: FloatArray, point_m: FloatArray) -> FloatArray:
+    """Points (P, 3) with weights (P, 20) as the bones (20, 8) carry them."""
+    blended = weight @ dual
+    blended /= np.linalg.norm(blended[:, :4], axis=1, keepdims=True)
+    real, other = blended[:, :4], blended[:, 4:]
+    shift = 2.0 * (real[:, :1] * other[:, 1:] - other[:, :1] * real[:, 1:] + np.cross(real[:, 1:], other[:, 1:]))
+    return turn_vectors(real, point_m) + shift
+
+
+def turn_vectors(real: FloatArray, vector: FloatArray) -> FloatArray:
+    """Vectors (P, 3) turned by unit quaternions (P, 4)."""
+    w, v = real[:, :1], real[:, 1:]
+    return vector + 2.0 * np.cross(v, np.cross(v, vector) + w * vector)
+
+
+def blended_turn(weight: FloatArray, dual: FloatArray) -> FloatArray:
+    """Unit quaternions (P, 4) by which the skin turns."""
+    real = weight @ dual[:, :4]
+    return real / np.linalg.norm(real, axis=1, keepdims=True)

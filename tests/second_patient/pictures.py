@@ -1,4 +1,10 @@
-"""How the second patient looks: skin, paper, nails, creases, table, cushion, lamp; and the picture without noise."""
+"""The second camera's pictures: skin, paper, nails, table, cushion and lamp by a z-buffer; a warm, vignetting lens; and
+depth by structured light, with a law of its own.
+
+Depth law: disparity d = ``DISPARITY_PX_M`` / z, read with noise of ``disparity_sd_px`` (drawn for each unit) that
+neighbours share over some pixels, and given in steps of ``STEP_PX``. Along edges a reading belongs to either surface
+or to a mixture; where the projector cannot shine, at grazing skin and now and then anywhere, there is none.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +14,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.model.types import FloatArray
-from tests.second_patient.camera import Hung
+from carpus.core.model.types import ByteImage, DepthImage, FloatArray
 from tests.second_patient.discs import NAMES
-from tests.second_patient.patient import Body, Patient
-from tests.second_patient.raster import fragments
-from tests.second_patient.skeleton import Bone, place_bones, rest_posture
+from tests.second_patient.patient import Body, Hung, Patient
+from tests.second_patient.person import Bone, place_at_rest
 
 FloatImage = NDArray[np.float32]
 SAMPLES = 2
@@ -22,6 +26,70 @@ _CUSHION_M = ((-0.30, -0.030), (-0.075, 0.075))
 _CUSHION_DEEP_M = 0.034
 _PAPER_OVER_REST = 2.4
 _SLEEVE_FROM_M = -0.13
+DISPARITY_PX_M = 568.0 * 0.0748
+STEP_PX = 1.0 / 8.0
+COUNTS_PER_M = 5000.0
+_PATCH_PX = (1.9, 1.2)
+"""Reach of what neighbours share, along and across the rows."""
+_EDGE_PX = 1.4
+_GRAZING = 0.030
+"""Depth may change so much from pixel to pixel, metres, before a surface grazes the light."""
+_BANK = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Fragments:
+    """The nearest surface at F samples: ``row``, ``column`` of the sample (F,), the ``triangle`` (F,) seen there,
+    the ``share`` (F, 3) of its corners, ``depth_m`` (F,)."""
+
+    row: NDArray[np.int64]
+    column: NDArray[np.int64]
+    triangle: NDArray[np.int64]
+    share: FloatArray
+    depth_m: FloatArray
+
+
+def fragments(
+    pixel: FloatArray, depth_m: FloatArray, triangle: NDArray[np.int64], shape: tuple[int, int], per_pixel: int = 1
+) -> Fragments:
+    """What is seen of triangles (T, 3) of corners at ``pixel`` (V, 2) and ``depth_m`` (V,), on a grid of ``per_pixel``
+    samples each way in every pixel of a picture of ``shape``; those seen from behind are left out."""
+    rows, columns = shape[0] * per_pixel, shape[1] * per_pixel
+    spot = (pixel + 0.5) * per_pixel - 0.5
+    a, b, c = (spot[triangle[:, i]] for i in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    low = np.ceil(np.minimum(np.minimum(a, b), c)).astype(np.int64)
+    high = np.floor(np.maximum(np.maximum(a, b), c)).astype(np.int64)
+    low, high = np.maximum(low, 0), np.minimum(high, [columns - 1, rows - 1])
+    size = high - low + 1
+    kept = np.flatnonzero((area < 0.0) & (size > 0).all(axis=1) & (depth_m[triangle] > 0.05).all(axis=1))
+    low, size, area, a, b, c = low[kept], size[kept], area[kept], a[kept], b[kept], c[kept]
+    count = size[:, 0] * size[:, 1]
+    owner = np.repeat(np.arange(len(kept)), count)
+    wide = size[owner, 0]
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    down = place // wide
+    x = low[owner, 0] + place - down * wide
+    y = low[owner, 1] + down
+    # Shares of the corners, and one over the depth (not depth), are linear over the picture.
+    near = 1.0 / depth_m[triangle[kept]]
+    part_b = np.stack((c[:, 1] - a[:, 1], a[:, 0] - c[:, 0]), axis=1) / area[:, None]
+    part_c = np.stack((a[:, 1] - b[:, 1], b[:, 0] - a[:, 0]), axis=1) / area[:, None]
+    at_b, at_c = (-np.einsum("ti,ti->t", part, a) for part in (part_b, part_c))
+    share_b = x * part_b[owner, 0] + y * part_b[owner, 1] + at_b[owner]
+    share_c = x * part_c[owner, 0] + y * part_c[owner, 1] + at_c[owner]
+    inside = np.flatnonzero((share_b >= -1e-9) & (share_c >= -1e-9) & (share_b + share_c <= 1.0 + 1e-9))
+    owner, share_b, share_c = owner[inside], share_b[inside], share_c[inside]
+    near_a, near_b, near_c = near[owner].T
+    nearness = near_a + share_b * (near_b - near_a) + share_c * (near_c - near_a)
+    sample = y[inside] * columns + x[inside]
+    order = np.argsort(nearness)
+    front = np.full(rows * columns, -1, dtype=np.int64)
+    front[sample[order]] = order
+    seen = front[front >= 0]
+    owner, sample, share_b, share_c = owner[seen], sample[seen], share_b[seen], share_c[seen]
+    share = np.stack((1.0 - share_b - share_c, share_b, share_c), axis=1) * near[owner] / nearness[seen, None]
+    return Fragments(sample // columns, sample % columns, kept[owner], share, 1.0 / nearness[seen])
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -37,14 +105,6 @@ class Look:
     paint: FloatArray
     table: FloatImage
     table_depth_m: FloatImage
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class CleanColor:
-    """``light`` (H, W, 3); ``visible_share`` (21,) of each disc's paper that is seen, by area on the picture."""
-
-    light: FloatImage
-    visible_share: FloatArray
 
 
 def make_look(patient: Patient, hung: Hung, seed: int) -> Look:
@@ -70,7 +130,7 @@ def _paint(patient: Patient, rng: np.random.Generator) -> FloatArray:
     waves = rng.normal(size=(12, 3)) * 140.0
     mottle = np.sin(corner @ waves.T + rng.uniform(0.0, 6.3, 12)).mean(axis=1)
     out = base * (1.0 + 0.12 * mottle[:, None] * np.array([0.7, 1.0, 1.1]))
-    rest = place_bones(person, rest_posture(), np.eye(3))
+    rest = place_at_rest(person)
     mm = 1e-3 * person.size
     for ray in (1, 2, 3, 4):
         first = Bone.PP2 + 3 * (ray - 1)
@@ -162,8 +222,11 @@ def render_depth(patient: Patient, hung: Hung, look: Look, body: Body) -> FloatI
     return depth
 
 
-def render_color(patient: Patient, hung: Hung, look: Look, body: Body, stuck: NDArray[np.bool_]) -> CleanColor:
-    """The picture in linear light; ``stuck`` (21,) which discs are on the hand."""
+def render_color(
+    patient: Patient, hung: Hung, look: Look, body: Body, stuck: NDArray[np.bool_]
+) -> tuple[FloatImage, FloatArray]:
+    """The picture in linear light (H, W, 3), and the share (21,) of each disc's paper that is seen, by area on the
+    picture; ``stuck`` (21,) which discs are on the hand."""
     shape = look.table_depth_m.shape
     cam = hung.to_camera(body.point_m)
     pixel = hung.pixel(cam)
@@ -194,7 +257,7 @@ def render_color(patient: Patient, hung: Hung, look: Look, body: Body, stuck: ND
     part = cv2.resize(cover, size, interpolation=cv2.INTER_AREA)[..., None]
     cut = (slice(low[1], high[1]), slice(low[0], high[0]))
     table[cut] = whole + (1.0 - part) * table[cut]
-    return CleanColor(table, share)
+    return table, share
 
 
 def _stick(
@@ -266,3 +329,112 @@ def _shadowed(hung: Hung, look: Look, body: Body, faces: NDArray[np.int64]) -> F
     shade = cv2.resize(shade, (look.table.shape[1], look.table.shape[0]), interpolation=cv2.INTER_LINEAR)
     dark = look.sky_light / (look.sky_light + look.lamp_light * look.lamp[2])
     return look.table * (np.float32(1.0) - shade[..., None] * ((1.0 - dark) * 0.85).astype(np.float32))
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Sensor:
+    """One unit: its lens, its colours and its depth, and the noise that it draws on."""
+
+    gain: FloatArray
+    falloff: FloatImage
+    blur_px: float
+    shot: float
+    read: float
+    chroma_blur_px: float
+    disparity_sd_px: float
+    pattern_px: FloatImage
+    scale: float
+    bank: tuple[FloatImage, ...]
+    patch: tuple[FloatImage, ...]
+    seed: int
+
+
+def make_sensor(seed: int, shape: tuple[int, int]) -> Sensor:
+    """The unit of a seed for pictures of ``shape``."""
+    rng = np.random.default_rng([seed, 1709])
+    v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
+    away = np.hypot((u - 0.5 * shape[1]) / (0.5 * shape[1]), (v - 0.5 * shape[0]) / (0.5 * shape[1]))
+    falloff = (1.0 - float(rng.uniform(0.10, 0.32)) * away**2).astype(np.float32)
+    warm = float(rng.uniform(-0.10, 0.12))
+    gain = float(rng.uniform(0.85, 1.15)) * np.array([1.0 + warm, 1.0 + float(rng.uniform(-0.04, 0.04)), 1.0 - warm])
+    bank = tuple(rng.standard_normal((*shape, 3), dtype=np.float32) for _ in range(_BANK))
+    patch = tuple(_patches(rng.standard_normal(shape, dtype=np.float32)) for _ in range(_BANK))
+    pattern = 0.045 * _patches(rng.standard_normal(shape, dtype=np.float32))
+    return Sensor(
+        gain,
+        falloff,
+        float(rng.uniform(0.45, 0.75)),
+        float(rng.uniform(1.5e-4, 5e-4)),
+        float(rng.uniform(0.8e-3, 2.2e-3)),
+        float(rng.uniform(0.6, 1.1)),
+        float(rng.uniform(0.055, 0.10)),
+        pattern.astype(np.float32),
+        1.0 + float(np.clip(rng.normal(0.0, 0.003), -0.006, 0.006)),
+        bank,
+        patch,
+        seed,
+    )
+
+
+def _patches(white: FloatImage) -> FloatImage:
+    """Noise of sd 1 that neighbours share."""
+    soft = cv2.GaussianBlur(white, (0, 0), sigmaX=_PATCH_PX[0], sigmaY=_PATCH_PX[1])
+    return np.asarray(soft / soft.std(), dtype=np.float32)
+
+
+_LINEAR = np.linspace(0.0, 1.0, 4096)
+_SRGB = np.where(_LINEAR <= 0.0031308, 12.92 * _LINEAR, 1.055 * _LINEAR ** (1 / 2.4) - 0.055)
+_GAMMA: ByteImage = np.round(255.0 * _SRGB).astype(np.uint8)
+
+
+def expose(sensor: Sensor, light: FloatImage, frame: int) -> ByteImage:
+    """(H, W, 3) linear light as 8-bit colour, red first."""
+    rng = np.random.default_rng([sensor.seed, 1801, frame])
+    seen = cv2.GaussianBlur(
+        light * (sensor.falloff[..., None] * sensor.gain.astype(np.float32)), (0, 0), sensor.blur_px
+    )
+    noise = _rolled(sensor.bank, rng)
+    seen = seen + noise * np.sqrt(np.float32(sensor.shot) * np.maximum(seen, 0.0) + np.float32(sensor.read**2))
+    eight = _GAMMA[np.clip(seen * 4095.0, 0.0, 4095.0).astype(np.uint16)]
+    split = cv2.cvtColor(eight, cv2.COLOR_RGB2YCrCb)
+    half = cv2.resize(split[..., 1:], (split.shape[1] // 2, split.shape[0] // 2), interpolation=cv2.INTER_AREA)
+    half = cv2.GaussianBlur(half, (0, 0), 0.5 * sensor.chroma_blur_px)
+    split[..., 1:] = cv2.resize(half, (split.shape[1], split.shape[0]), interpolation=cv2.INTER_LINEAR)
+    return np.asarray(cv2.cvtColor(split, cv2.COLOR_YCrCb2RGB))
+
+
+def read_depth(sensor: Sensor, depth_m: FloatImage, frame: int) -> DepthImage:
+    """(H, W) true depth as the unit gives it, 5000 counts a metre, 0 for no reading."""
+    rng = np.random.default_rng([sensor.seed, 1901, frame])
+    shape = depth_m.shape
+    disparity = (DISPARITY_PX_M / depth_m).astype(np.float32)
+    noise, jump_u, jump_v, dice = (_rolled(sensor.patch, rng) for _ in range(4))
+    v, u = np.indices(shape, dtype=np.float32)
+    read = cv2.remap(
+        disparity,
+        u + _EDGE_PX * jump_u,
+        v + 0.6 * _EDGE_PX * jump_v,
+        cv2.INTER_NEAREST,
+        borderMode=cv2.BORDER_REPLICATE,
+    )
+    high = cv2.dilate(disparity, np.ones((5, 5), np.uint8))
+    low = cv2.erode(disparity, np.ones((5, 5), np.uint8))
+    edge = high - low > 1.2
+    mixed = edge & (dice > 0.9)
+    read = np.where(mixed, cv2.blur(disparity, (3, 3)), read)
+    read = read + np.float32(sensor.disparity_sd_px) * noise + sensor.pattern_px
+    steps = np.round(read / STEP_PX) * STEP_PX
+    out = np.round(COUNTS_PER_M * sensor.scale * DISPARITY_PX_M / steps)
+    # The projector stands to the left: what a nearer thing hides from it, further left, is dark.
+    column = u + disparity
+    dark = column < np.maximum.accumulate(column, axis=1) - 1.0
+    slope = np.maximum(np.abs(np.gradient(depth_m, axis=0)), np.abs(np.gradient(depth_m, axis=1)))
+    blind = dark | (edge & (dice < -1.1)) | ((slope > _GRAZING) & (dice < 0.3)) | (noise * dice > 6.5)
+    return np.where(blind, 0, out).astype(np.uint16)
+
+
+def _rolled(bank: tuple[FloatImage, ...], rng: np.random.Generator) -> FloatImage:
+    """One of the drawn noises, shifted: new for every frame without being drawn for it."""
+    one = bank[int(rng.integers(len(bank)))]
+    down, right, flip = int(rng.integers(one.shape[0])), int(rng.integers(one.shape[1])), int(rng.integers(2))
+    return np.roll(one, (down, right), axis=(0, 1)) * np.float32(1 - 2 * flip)
