@@ -21,10 +21,8 @@ def _reading(error_deg: float) -> Reading:
 def test_whole_run_has_a_place_for_every_table() -> None:
     placed = [name for page in pages.PAGES for name in pages.find_tables(page.read_text(encoding="utf-8"))]
     assert len(placed) - placed.count("made") == len(set(placed)) - 1, "each table but the origin stands once"
-    wrists = {name for name in accuracy.AT_ONCE if name in accuracy.WRIST_ROWS}
-    hands = {name for name in accuracy.AT_ONCE if name in accuracy.HAND_ROWS}
     own = {name for name, _ in accuracy._patient_tables([])}
-    told = wrists | {"hand" if name == "hand" else f"{name} hand" for name in hands}
+    told = accuracy.WRIST_ROWS.keys() | {"hand" if name == "hand" else f"{name} hand" for name in accuracy.HAND_ROWS}
     assert told | {f"{name} read" for name in told} | {"badly", "second", "made", *own} == set(placed)
 
 

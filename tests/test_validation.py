@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from carpus.core.model.hand.exercises import EXERCISES
+from tests import validation
 from tests.validation import MOUNTINGS, Job, main
 
 
-def test_page_names_what_makes_it_again(tmp_path: Path) -> None:
-    asked = "--first-seed 10000001 --people 3 --exercises WRIST_FE"
+def test_page_names_what_makes_it_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(validation, "SECONDS", 5.0)
+    asked = "--first-seed 10000001 --people 2 --exercises WRIST_FE"
     less = ["--second", "0", "--no-images", "--processes", "1"]
     assert main([*asked.split(), *less, "--output", str(tmp_path / "page.md")]) == 0
     made = (tmp_path / "page.md").read_text(encoding="utf-8")

@@ -25,7 +25,8 @@ from carpus.core.pipeline.track import (
 )
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import Motion, Session, stack_states
-from carpus.core.simulation.recording import CLICKS_FILE, render_cached, sample_clicks
+from carpus.core.simulation.recording import CLICKS_FILE, sample_clicks
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -108,28 +109,26 @@ def run_on_blobs(scenario: Scenario, sequence: MeasurementSequence) -> tuple[Run
     status = np.array([frame.status for frame in frames])
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     motions = stack_states(frames), stack_states(tracker.smooth())
-    return _score_run(scenario, "blobs", sequence, neutral_ends_s, *motions, measured_px, status), neutral_ends_s
+    return _score_run(scenario.name, "blobs", sequence, neutral_ends_s, *motions, measured_px, status), neutral_ends_s
 
 
-def run_on_pictures(scenario: Scenario, seed: int, seconds: float) -> tuple[Run, MeasurementSequence, float, Path]:
+def run_on_pictures(name: str, spec: RecordingSpec, folder: Path) -> tuple[Run, MeasurementSequence, float]:
     """Track a rendered recording through the whole of Carpus.
 
-    Also the blobs that were found, by their true names, when the neutral pose ended, and the recording's folder.
+    Also the blobs that were found, by their true names, and when the neutral pose ended.
     """
-    spec = scenario.spec(seed, seconds)
-    folder = render_cached(spec)
     found = measure_session(folder)
     sequence, session = detect_sequence(read_truth(spec, folder), found), found.session
     assert session.smoothed is not None
     run = _score_run(
-        scenario, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed,
+        name, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed,
         session.markers.measured_px, session.status.astype(np.int64),
     )  # fmt: skip
-    return run, sequence, found.neutral_ends_s, folder
+    return run, sequence, found.neutral_ends_s
 
 
 def _score_run(
-    scenario: Scenario,
+    name: str,
     mode: Mode,
     sequence: MeasurementSequence,
     begin_s: float,
@@ -146,7 +145,7 @@ def _score_run(
         for one in (live, back)
     )
     return Run(
-        scenario.name,
+        name,
         truth.spec.seed,
         mode,
         CARPUS,

@@ -44,7 +44,6 @@ JOINT_GROUPS: dict[str, tuple[str, ...]] = {
     "thumb IP": ("IP1_flexion",),
     "thumb CMC": ("CMC1_extension", "CMC1_abduction", "MCP1_abduction"),
 }
-WRIST = ("deviation", "flexion", "pro/sup")
 
 
 @dataclass(frozen=True, slots=True)

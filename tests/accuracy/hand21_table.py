@@ -13,7 +13,6 @@ from tests.accuracy.hand21 import (
     ANGLES,
     JOINT_GROUPS,
     REPORT_SEEDS,
-    WRIST,
     HandRun,
     HandScenario,
     run_on_blobs,
@@ -24,19 +23,14 @@ from tests.accuracy.pages import rule_table
 from tests.accuracy.readings import mean, rms
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import Mode
-from tests.accuracy.targets import Verdict
 
 MOST_RMSE_DEG = {
     "joints": {"MCP flexion": 2.5, "PIP flexion": 3.0, "DIP flexion": 3.0},
     "skin": {"MCP flexion": 3.5, "PIP flexion": 4.0, "DIP flexion": 4.0},
 }
 MOST_RMSE_ALWAYS = {"thumb MCP": 3.0, "thumb IP": 4.0, "abduction": 2.0}
-MOST_WRIST_DEG = (0.3, 1.0, 1.2)
 READ_JOINTS = ("MCP flexion", "PIP flexion", "thumb CMC")
 """Groups of joints of which the therapist's columns are told."""
-MOST_DISC_MM = (1.0, 3.0)
-INSIDE = (0.90, 0.98)
-MOST_SD_OVER_RMSE = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,33 +168,3 @@ def read_rows(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> list[Rea
         out.append(ReadRow(f"{name}: wrist", WRIST_COLUMNS, tuple(run.wrist_reading for run in mine)))
         out.append(ReadRow(f"{name}: joints", groups, tuple(run.joint_reading for run in mine)))
     return out
-
-
-def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iterator[Verdict]:
-    """What was promised of the hand, by the simulated measurements."""
-    for row, mode, mine in _by_row(runs, rows):
-        if row.limits is None or mode != "blobs":
-            continue
-        for group, limit in {**MOST_RMSE_DEG[row.limits], **MOST_RMSE_ALWAYS}.items():
-            found = figures(mine, group)
-            yield Verdict(
-                f"{row.name}: RMSE of {group} while seen at most {limit:g} degrees", f"{found.rmse:.2f}",
-                found.rmse <= limit,
-            )  # fmt: skip
-        for group in JOINT_GROUPS:
-            found = figures(mine, group)
-            low, high = INSIDE
-            yield Verdict(
-                f"{row.name}: truth of {group} within 2 sd in {100 * low:.0f} to {100 * high:.0f} %, hidden included",
-                f"{100 * found.all_inside:.1f} %",
-                low <= found.all_inside <= high,
-            )
-            yield Verdict(
-                f"{row.name}: mean sd of {group} while seen at most {MOST_SD_OVER_RMSE:g} times the RMSE",
-                f"{found.sd_over_rmse:.2f}",
-                found.sd_over_rmse <= MOST_SD_OVER_RMSE,
-            )
-        for name, limit, value in zip(WRIST, MOST_WRIST_DEG, wrist_rmse(mine), strict=True):
-            yield Verdict(f"{row.name}: RMSE of wrist {name} at most {limit:g} degrees", f"{value:.2f}", value <= limit)
-        for name, limit, value in zip(("median", "95th percentile"), MOST_DISC_MM, disc_mm(mine), strict=True):
-            yield Verdict(f"{row.name}: {name} of the discs at most {limit:g} mm", f"{value:.2f}", bool(value <= limit))

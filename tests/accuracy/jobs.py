@@ -12,6 +12,7 @@ from typing import TypeVar
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
+from carpus.core.simulation.recording import render_cached
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import run_informed
 from tests.accuracy.runs import Mode, Run
@@ -40,7 +41,9 @@ def run_job(job: Job, *, bound: bool = True) -> list[Run]:
             carpus, begin_s = run_on_blobs(job.scenario, sequence)
             simplest = simplest_run(job.scenario, sequence, begin_s)
         else:
-            carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
+            spec = job.scenario.spec(job.seed, PICTURE_SECONDS)
+            folder = render_cached(spec)
+            carpus, sequence, begin_s = run_on_pictures(job.scenario.name, spec, folder)
             simplest = simplest_run(job.scenario, sequence, begin_s, folder)
         if not bound:
             return [carpus, simplest]

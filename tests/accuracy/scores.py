@@ -18,7 +18,7 @@ class Score:
     """Runs of one method pooled over all their frames; arrays have one value for each of C columns, degrees.
 
     ``rmse``, ``p95`` of the errors; ``inside`` share of frames with the truth within two stated sds, ``worst_inside``
-    of the worst recording, all columns together, and ``worst_inside_of`` (C,) column by column; ``sd_over_rmse`` mean
+    of the worst recording, all columns together; ``sd_over_rmse`` mean
     stated sd over the RMSE. ``tracked`` share of the frames, ``wrong`` share of the measurements taken,
     ``longest_wrong_s`` of any marker, ``longest_untracked_s`` though enough discs showed, ``ends_lost`` recordings.
     """
@@ -28,7 +28,6 @@ class Score:
     p95: FloatArray
     inside: FloatArray
     worst_inside: float
-    worst_inside_of: FloatArray
     sd_over_rmse: FloatArray
     tracked: float
     wrong: float
@@ -55,7 +54,6 @@ def score(runs: Sequence[Run], columns: Sequence[str], *, smoothed: bool = False
     sd = by_column(lambda e: np.where(np.isfinite(e.error_deg), e.sd_deg, np.nan))
     inside = by_column(_inside)
     rmse = np.array([np.sqrt(np.mean(values**2)) if values.size else np.nan for values in error])
-    each = [[_mean(_finite(_inside(estimate)[:, some])) for some in series] for _, estimate in kept]
     whole = [_mean(_finite(_inside(estimate))) for _, estimate in kept]
     status = np.concatenate([run.status for run, _ in kept])
     return Score(
@@ -64,7 +62,6 @@ def score(runs: Sequence[Run], columns: Sequence[str], *, smoothed: bool = False
         p95=np.array([np.quantile(np.abs(values), 0.95) if values.size else np.nan for values in error]),
         inside=np.array([_mean(values) for values in inside]),
         worst_inside=float(np.min(whole)),
-        worst_inside_of=np.min(np.array(each), axis=0),
         sd_over_rmse=np.array([_mean(values) for values in sd]) / rmse,
         tracked=float(np.mean(status == TrackStatus.TRACKED)),
         wrong=sum(run.wrong for run, _ in kept) / max(1, sum(run.taken for run, _ in kept)),

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from carpus.core.model.depth_sensor import SENSORS
 from tests.accuracy.hand21 import EXERCISES, TROUBLE, HandScenario
 from tests.accuracy.scenarios import USUAL_TROUBLE, Scenario
 
@@ -66,27 +65,4 @@ SOFT_HAND = (
         sleeve="jeans",
         pen_marks=6,
     ),
-)
-
-# The depth sensors: the same people and exercises before each kind, wrist and whole hand. What a sensor is worth
-# shows on people; the Xtion's rows are what the others are held against, and of all it is wanted that the truth lies
-# within two stated standard deviations in 88 to 98 % of frames.
-RENDERED = ("d435", "azure")
-"""One of each new kind also by pictures; the Xtion's are those of the other rows."""
-SENSOR_WRIST = tuple(
-    Scenario(
-        f"sensor: {sensor.name}",
-        {**DRAWN, "motion": "mixed", "sensor": name},
-        (0.25, 0.5),
-        trouble=dict(USUAL_TROUBLE),
-        has_bound=False,
-        pictures=name in RENDERED,
-    )
-    for name, sensor in SENSORS.items()
-)
-SENSOR_HAND = tuple(
-    HandScenario(
-        f"sensor: {sensor.name}", EXERCISES, {**TROUBLE, **DRAWN, "sensor": name}, weight=2, pictures=name in RENDERED
-    )
-    for name, sensor in SENSORS.items()
 )

@@ -17,7 +17,7 @@ from tests.tracking.hands import CAMERA, Pose, blobs, calibration
 def test_plain_filter_follows_wrist_and_fingers() -> None:
     plain, rng = reference.ReferenceFilter(), np.random.default_rng(1)
     place_m, joints_rad = [], []
-    for k in range(1, 240):
+    for k in range(1, 150):
         truth = reference.motion(k / 30.0)
         pixel = reference.project_markers(truth[None])[0] + rng.normal(0.0, 1.0, 2 * reference.MARKERS)
         plain.step(pixel, 1.0 / 30.0)

@@ -50,7 +50,7 @@ odds_tables = st.integers(1, 4).flatmap(
 )
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=80)
 @given(odds_tables)
 def test_assign_blobs_is_the_best_of_all_assignments(odds: FloatArray) -> None:
     assigned = assign_blobs(odds)
@@ -89,7 +89,7 @@ def get_marker_block(covariance: FloatArray) -> FloatArray:
     return np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_log_odds_give_equation_12(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed)
     own = get_marker_block(covariance)
@@ -161,10 +161,7 @@ def is_inside_gate(
 ) -> bool:
     """Whether each name, the surest marker's first, is inside the gate given those before it."""
     spread = [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(len(assigned))]
-    rows: list[int] = []
-    variances: list[float] = []
-    values: list[float] = []
-    before = 0.0
+    rows, variances, values, before = list[int](), list[float](), list[float](), 0.0
     for j in np.argsort(spread, kind="stable"):
         if assigned[j] < 0:
             continue
@@ -197,7 +194,7 @@ def as_key(assigned: NDArray[np.int64], with_depth: NDArray[np.bool_]) -> tuple[
     return tuple(int(i) for i in assigned), tuple(bool(d) for d in with_depth)
 
 
-@pytest.mark.parametrize("seed", range(15))
+@pytest.mark.parametrize("seed", range(6))
 def test_associate_jointly_wide_beam_is_the_best_of_all(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed, clutter=seed % 3)
     found = associate_jointly(mean, covariance, blobs, noise, RES_PX2, replace(SETTINGS, beam_width=10_000))

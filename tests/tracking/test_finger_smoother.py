@@ -16,8 +16,8 @@ from tests.simulation.measurements import MeasurementSequence, measurement_seque
 from tests.suites import few
 from tests.tracking.sequences import build_tracker
 
-RECORDED_S, PIECE_S, LAG_S = 2.0, 1.5, 1.5
-SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=7.0, range_share=0.5, hand_length_mm=185.0)
+RECORDED_S, PIECE_S, LAG_S = 1.5, 1.25, 1.25
+SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=5.5, range_share=0.5, hand_length_mm=185.0)
 
 
 @lru_cache(maxsize=1)

@@ -8,6 +8,7 @@ import pytest
 from carpus.core.model.types import Detections, FloatArray, TrackStatus
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
+from tests.suites import few
 from tests.tracking.hands import CAMERA, Pose, blobs, calibration
 
 SETTINGS = {
@@ -48,7 +49,7 @@ def is_covariance(p: FloatArray) -> bool:
     return bool(np.abs(scaled - scaled.T).max() < 1e-9 and np.linalg.eigvalsh(scaled)[0] > 0.0)
 
 
-@pytest.mark.parametrize("name", SETTINGS)
+@pytest.mark.parametrize("name", few(SETTINGS, 2))
 def test_tracker_random_input_keeps_a_valid_covariance(name: str) -> None:
     tracker = Tracker(calibration(), CAMERA, SETTINGS[name])
     statuses = []

@@ -104,7 +104,7 @@ def test_find_palm_four_markers_are_labelled_right_or_not_at_all() -> None:
     glide = np.linalg.cholesky(stationary_covariance(SoftTissue())[SKIN, SKIN])
     right, wrong = 0, 0
     for hidden in combinations(range(6), 2):
-        for _ in range(16):
+        for _ in range(8):
             worn = palm("right") + (glide @ rng.normal(size=18)).reshape(6, 3)
             strange = PalmView(CAMERA, FROM_ABOVE, MIDDLE_M, worn, np.zeros((6, 18)))
             found = find_palm(blobs(some_pose(rng), rng, hidden=hidden), strange, STRAYS, ANYHOW)
@@ -112,7 +112,7 @@ def test_find_palm_four_markers_are_labelled_right_or_not_at_all() -> None:
                 is_right = np.array_equal(np.flatnonzero(found.matched), np.setdiff1d(np.arange(6), hidden))
                 right, wrong = right + is_right, wrong + (not is_right)
     assert wrong <= 1
-    assert right > 100
+    assert right > 50
 
 
 def test_find_palm_palmar_side_gives_none() -> None:
@@ -146,13 +146,13 @@ def test_find_palm_many_blobs_searches_the_most_similar() -> None:
     assert found.count == 6
 
 
-@pytest.mark.parametrize("hidden", [(), (0,), (0, 1), (1, 3)])
-def test_found_palm_covariance_covers_its_error(hidden: tuple[int, ...]) -> None:
+@pytest.mark.parametrize("hidden", few([[], [0, 1], [0], [1, 3]], 2))
+def test_found_palm_covariance_covers_its_error(hidden: list[int]) -> None:
     """Its errors are as large as stated, also about the line of the knuckles when only those show."""
     rng = np.random.default_rng(43)
     shown = np.setdiff1d(np.arange(6), hidden)
     squared = []
-    for _ in range(60):
+    for _ in range(40):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * 15.0)
         found = search_palm(blobs(pose, rng, hidden=hidden))
         if found is None:
@@ -163,5 +163,5 @@ def test_found_palm_covariance_covers_its_error(hidden: tuple[int, ...]) -> None
         assert np.linalg.eigvalsh(covariance)[0] > 0.0
         squared.append(float(error @ np.linalg.solve(covariance, error)))
         assert np.array_equal(np.flatnonzero(found.matched), shown)
-    assert len(squared) >= 40
+    assert len(squared) >= 27
     assert np.mean(np.array(squared) < 16.8) > 0.95  # 99 % of chi squared with six degrees of freedom

@@ -35,7 +35,6 @@ from tests.tracking.hands import (
     truth_deg,
 )
 
-SIDES: tuple[Side, Side] = ("right", "left")
 ALL = range(6)
 
 
@@ -69,9 +68,15 @@ def named_rightly(frame: TrackedFrame, pose: Pose, side: Side = "right") -> bool
     return bool(taken.any() and np.linalg.norm(frame.marker_measured_px - true, axis=1)[taken].max() < 2.0)
 
 
-@pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize(
-    ("which", "amplitude_deg", "hz"), [(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 45.0, 0.4), (0, 20.0, 1.7)]
+    ("which", "amplitude_deg", "hz", "side"),
+    [
+        (0, 22.0, 0.4, "right"),
+        (1, 45.0, 0.4, "left"),
+        (2, 45.0, 0.4, "right"),
+        (2, 45.0, 0.4, "left"),
+        (0, 20.0, 1.7, "left"),
+    ],
 )
 def test_tracker_angles_follow_both_hands(which: int, amplitude_deg: float, hz: float, side: Side) -> None:
     motion = swing(which, amplitude_deg, hz)
@@ -83,8 +88,7 @@ def test_tracker_angles_follow_both_hands(which: int, amplitude_deg: float, hz: 
     assert all(named_rightly(frame, motion(t), side) for frame, t in zip(frames, times(120), strict=True))
 
 
-@pytest.mark.parametrize("hz", [0.4, 1.0])
-@pytest.mark.parametrize("which", [0, 1, 2])
+@pytest.mark.parametrize(("which", "hz"), [(0, 1.0), (1, 0.4), (2, 1.0)])
 @pytest.mark.parametrize("gone", few([30, 12]))
 def test_tracker_hand_hidden_for_a_second_keeps_its_labels(which: int, gone: int, hz: float) -> None:
     motion = swing(which, 25.0, hz)
@@ -213,7 +217,7 @@ def test_tracker_restart_does_not_link_to_the_old_track() -> None:
 
 def test_tracker_smoothed_is_nearer_to_the_truth_than_filtered() -> None:
     filtered_error, smoothed_error = [], []
-    for seed, (which, amplitude_deg, hz) in enumerate([(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 40.0, 0.5), (0, 20.0, 1.7)]):
+    for seed, (which, amplitude_deg, hz) in enumerate([(0, 22.0, 0.4), (1, 45.0, 0.4), (2, 40.0, 0.5)]):
         motion = swing(which, amplitude_deg, hz)
         tracker = Tracker(calibration(), CAMERA, RIGID)
         frames = track(seen(motion, 120, seed), tracker=tracker)
@@ -256,7 +260,7 @@ def test_tracker_fast_hand_is_found_after_missing_frames(missing: int) -> None:
 def test_tracker_flipped_hand_is_corrected_by_other_markers() -> None:
     """So fast that wrist and thumb were not where they were expected, and with the knuckles the hand turned over."""
     motion = swing(1, 50.0, 2.2)
-    for seed in range(6):
+    for seed in range(3):
         frames = track(seen(motion, 120, seed))
         off = np.array(
             [
@@ -303,7 +307,7 @@ def test_tracker_four_false_blobs_do_not_move_a_hand_of_three() -> None:
     assert np.abs(angles_deg(tracked)).max() < 4.0
 
 
-@pytest.mark.parametrize(("seed", "side"), few([(0, "right"), (1, "left"), (2, "left"), (3, "right")], 2))
+@pytest.mark.parametrize(("seed", "side"), few([(1, "left"), (0, "right"), (2, "left"), (3, "right")]))
 def test_tracker_other_hand_is_never_tracked(seed: int, side: Side) -> None:
     """It shows five or six discs, mirrored, while the hand is covered for longer than it is kept."""
     rng = np.random.default_rng(seed)

@@ -15,17 +15,7 @@ from carpus.core.model.hand.protocols import HAND21, PALM_MARKERS
 @pytest.mark.parametrize("length_m", [0.130, 0.200])
 def test_offsets_grow_with_the_hand(length_m: float) -> None:
     offset_mm = anatomy_from_size(length_m).skin_offset_m * 1e3 * 180.0 / (length_m * 1e3)
-    expected = {
-        "WRIST": 15,
-        "CMC1": 10,
-        "MCP1": 9,
-        "IP1": 7,
-        "TIP1": 5,
-        "MCP3": 11,
-        "PIP2": 7.5,
-        "DIP5": 5.5,
-        "TIP4": 5,
-    }
+    expected = {"WRIST": 15, "CMC1": 10, "MCP1": 9, "IP1": 7, "TIP1": 5, "MCP3": 11, "PIP2": 7.5, "DIP5": 5.5}
     for marker, height in expected.items():
         assert offset_mm[HAND21.markers.index(marker)] == pytest.approx(height)
 

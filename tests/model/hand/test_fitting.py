@@ -16,7 +16,6 @@ from carpus.core.model.hand.fitting import AnatomyFit, MeasuredDiscs, fit_anatom
 from carpus.core.model.hand.kinematics import disc_centres
 from carpus.core.model.hand.protocols import HAND21, joint_angle_names
 from carpus.core.model.types import FloatArray, Side
-from tests.suites import few
 
 NAMES = joint_angle_names()
 COUNT = 12
@@ -91,26 +90,23 @@ def _seen(hand: HandAnatomy, angles: FloatArray, seed: int, depth_sd_m: float) -
 
 
 @functools.cache
-def _calibrated(seed: int, depth_sd_m: float = 0.001) -> AnatomyFit:
+def _calibrated(seed: int) -> AnatomyFit:
     hand = _person(seed)
-    return fit_anatomy(_seen(hand, _neutral(seed), seed, depth_sd_m), hand.side)
+    return fit_anatomy(_seen(hand, _neutral(seed), seed, 0.001), hand.side)
 
 
 def _angle_errors_deg(truth: HandAnatomy, found: HandAnatomy) -> FloatArray:
-    """What the found hand reads from perfectly measured discs of the true one, minus the truth; (3 poses, 17)."""
+    """What the found hand reads from perfectly measured discs of the true one, minus the truth; (2 poses, 17)."""
     errors = []
-    for angles in _fist(7)[[1, 2, 3]]:
+    for angles in _fist(7)[[1, 3]]:
         discs = disc_centres(truth, angles)
         read = least_squares(lambda q, discs=discs: (1e3 * (disc_centres(found, q) - discs)).ravel(), angles).x
         errors.append(np.degrees(read - angles))
     return np.array(errors)
 
 
-@pytest.mark.parametrize("depth_sd_m", few([0.0015, 0.0005]))
-def test_flexion_read_after_one_neutral_pose(depth_sd_m: float) -> None:
-    error_deg = np.array(
-        [_angle_errors_deg(_person(seed), _calibrated(seed, depth_sd_m).anatomy) for seed in range(0, COUNT, 2)]
-    )
+def test_flexion_read_after_one_neutral_pose() -> None:
+    error_deg = np.array([_angle_errors_deg(_person(seed), _calibrated(seed).anatomy) for seed in range(0, COUNT, 4)])
     for joint, limit_deg in (("MCP", 2.5), ("PIP", 4.2)):
         assert np.sqrt(np.mean(error_deg[..., _columns(joint, "flexion")] ** 2)) < limit_deg, joint
 
@@ -187,7 +183,7 @@ def _thick(seed: int) -> HandAnatomy:
 def test_fit_straight_fingers_limit_joint_heights(said: tuple[bool, ...]) -> None:
     flexions = _columns("MCP", "flexion") + _columns("PIP", "flexion")
     off, sd = [], []
-    for seed in range(4):
+    for seed in range(3):
         hand = _thick(seed)
         straight = np.zeros(17)
         fit = fit_anatomy(_seen(hand, straight, seed, 0.0005), hand.side, is_straight=said)
@@ -203,7 +199,7 @@ def test_fit_straight_fingers_limit_joint_heights(said: tuple[bool, ...]) -> Non
 @pytest.mark.parametrize("off_mm", [(0.0, 2.0), (2.0, 0.0)])
 def test_fit_misplaced_disc_keeps_its_depth(off_mm: tuple[float, float]) -> None:
     """Its true depth is kept, and with it the zero of the joint."""
-    for marker in ("PIP3", "DIP2", "DIP5"):
+    for marker in ("PIP3", "DIP5"):
         hand, seen = _person(6), _seen(_person(6), _neutral(6), 6, 0.0005)
         disc = seen.disc_m.copy()
         disc[:, HAND21.markers.index(marker), :2] += 1e-3 * np.array(off_mm)

@@ -104,13 +104,12 @@ def test_papers_tracker_hidden_hand_is_predicted_lost_and_found(whole_hand: bool
     assert np.isfinite(back.kinematics.angles_rad).all()
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_papers_tracker_random_blobs_never_fail(seed: int) -> None:
-    rng = np.random.default_rng(seed)
+def test_papers_tracker_random_blobs_never_fail() -> None:
+    rng = np.random.default_rng(0)
     for tracker in (wrist_tracker(), PaperTracker(hand_calibration(tilt_palm(0.0)), CAMERA, MEASURED)):
-        for i in range(150):
+        for i in range(90):
             found = blobs(rng.uniform((0.0, 0.0), (640.0, 480.0), (int(rng.integers(0, 40)), 2)))
-            frame = tracker.step(i, i / 30.0 + (i > 75) * 4.0, found)
+            frame = tracker.step(i, i / 30.0 + (i > 45) * 4.0, found)
             if frame.status is TrackStatus.LOST:
                 assert is_unknown(frame)
             else:
