@@ -164,6 +164,11 @@ def add_pictures(path: Path, pictures: Sequence[EncodedImages], unit_m: float = 
         file.attrs[CHECKSUM_ATTRIBUTE] = compute_checksum(file)
 
 
+def write_closed_journal(path: Path, rows: int) -> None:
+    """A journal that nobody adds to any more."""
+    write_journal(path, rows).close()
+
+
 def write_journal(path: Path, rows: int = 0, protocol: MarkerProtocol = WRIST6, **options: Any) -> RecordingJournal:
     """A journal with so many rows that are stored; its clock stands still."""
     header = make_header(protocol, session_id=uuid.uuid4())
