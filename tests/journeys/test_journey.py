@@ -181,6 +181,10 @@ def test_whole_journey_by_mouse(
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
     assert journey.patients.screen._store.card(row.patient_id).has_sessions
     assert [folder.stat().st_mode & 0o777 for folder in (desktop.library.folder, path.parent)] == [0o700, 0o700]
+    journey.exercise.open(row.patient_id)
+    click(qtbot, journey.exercise.screen.primary_button)
+    wait_for_place(qtbot, journey, "camera")
+    assert journey.camera.screen.sources.value() == "camera", "a simulated hand is chosen each time"
     desktop.close()
     again = open_desktop()
     (entry,) = again.library.sessions(row.patient_id)
@@ -361,27 +365,6 @@ def test_camera_that_is_ready_is_opened_without_a_question_after_the_exercise(
     assert opened == [SourceChoice("camera")]
     journey.camera.open()  # back from the markers: another source may be wanted
     assert len(opened) == 1
-
-
-def test_simulated_camera_is_for_the_practice_patient_only(
-    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(MaintenanceCameras, "name", lambda _: None)
-    journey = (desktop := open_desktop()).controller
-    journey.camera.open(PRACTICE_PATIENT)
-    wait_for_place(qtbot, journey, "markers")
-    journey.patients.open()
-    linden = desktop.library.patients.add(Patient("Linden 42", "right"))
-    for _ in range(2):
-        journey.exercise.open(linden)
-        click(qtbot, journey.exercise.screen.primary_button)
-        wait_for_place(qtbot, desktop.controller, "camera")
-        assert journey.camera.screen.sources.value() == "camera"
-        assert not journey.camera.screen.primary_button.isEnabled()
-        click(qtbot, journey.camera.screen.sources.option("practice"))  # by hand, each time
-        click(qtbot, journey.camera.screen.primary_button)
-        wait_for_place(qtbot, desktop.controller, "markers")
-        journey.patients.open()
 
 
 def test_interrupted_session_is_reported_at_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:

@@ -1,24 +1,32 @@
-"""How the window starts when its data folder is in use or cannot be used at all."""
+"""How the window starts, also where its folder is in use or cannot be used, or with a file handed over by the system;
+what goes for all its screens."""
 
 from __future__ import annotations
 
+import lzma
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from carpus.app import __main__ as command_line
 from carpus.app import compose
 from carpus.app.commands import desktop
 from carpus.app.desktop import folder_window, log, window
 from carpus.app.desktop.single_instance import SingleInstance
 from carpus.app.settings import load_settings
+from carpus.core.model.errors import DiskFull
 from carpus.core.model.phrase import LANGUAGES
 from carpus.ui.kit import language
+from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.text import Text
+from carpus.ui.shell.messages import MessageDialog
+from tests.journeys.conftest import Open
 
 ROOT = Path(__file__).parents[2]
 CALL = """
@@ -132,3 +140,87 @@ def test_language_change_reopens_window_at_settings(
     assert shown == [("patients", "system", False), ("settings", "de", True)]
     assert load_settings().screen.language == "de"
     assert all(one.is_closed for one in opened)
+
+
+GOLDEN = Path(__file__).parents[1] / "session" / "golden" / "v2-wrist6.h5.xz"
+
+
+@pytest.fixture
+def session(tmp_path: Path) -> Path:
+    path = tmp_path / "Stick der Klinik" / "сессия 1.h5"
+    path.parent.mkdir()
+    path.write_bytes(lzma.decompress(GOLDEN.read_bytes()))
+    return path
+
+
+def test_opened_file_of_an_unknown_patient_is_shown_after_the_pin(
+    qtbot: QtBot, open_desktop: Open, session: Path, data: Path, tmp_path: Path
+) -> None:
+    before = session.read_bytes()
+    journey = (opened := open_desktop()).controller
+    other = tmp_path / "other.h5"
+    other.write_bytes(b"\x89HDF\r\n\x1a\nnothing")
+    opened.on_second_instance(other)
+    assert journey.place == "patients"
+    assert journey.messages.is_busy, "what is no session is told"
+    journey.messages.dialog.answer_buttons[-1].click()
+    locking = opened.data_protection.locking
+    locking.pin.set("4711")
+    locking.lock_or_set_pin()
+    assert locking.is_locked
+    opened.on_second_instance(session)
+    assert (journey.place, journey.current.patient) == ("patients", None)
+    locking.lock_screen.pin_entered.emit("4711")
+    qtbot.waitUntil(lambda: journey.review.screen.is_loaded, timeout=30_000)
+    assert journey.place == "review"
+    assert journey.current.patient.pseudonym == "Linden 42"
+    assert journey.review.screen.card.repeat_button.isHidden(), "there is nobody to measure"
+    for tab in range(4):  # every tab of the bar leads somewhere
+        journey.open_tab(tab)
+        assert journey.place == ("sessions", "review", "progress", "report")[tab] or tab == 3
+    journey.patients.open()
+    assert not list((data / "sessions").rglob("*.h5"))
+    assert session.read_bytes() == before
+    assert [path.name for path in session.parent.iterdir()] == [session.name]
+
+
+def test_double_clicked_file_opens_like_the_command(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert command_line.main(["not there.h5"]) == 1
+    assert "not there.h5" in capsys.readouterr().err
+    opened: list[Path] = []
+    monkeypatch.setattr(desktop, "run_review", lambda arguments: opened.append(arguments.session) or 0)
+    assert command_line.main(["a.h5"]) == command_line.main(["review", "a.h5"]) == 0
+    assert opened == [Path("a.h5")] * 2
+
+
+def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
+    shell, journey = (opened := open_desktop()).shell, opened.controller
+    shell.activateWindow()
+    seen: list[str] = []
+
+    def press_escape() -> None:
+        qtbot.keyClick(shell.focusWidget() or shell, Qt.Key.Key_Escape)
+
+    for place, screen in (
+        ("patients", journey.patients.screen), ("markers", journey.markers.screen), ("live", journey.live.screen),
+        ("review", journey.review.screen),
+    ):  # fmt: skip
+        journey.navigator.switch_screen(place)  # type: ignore[arg-type]
+        for sheet in screen.findChildren(Dialog):
+            if isinstance(sheet, MessageDialog):
+                continue
+            sheet.open()
+            assert sheet.isVisible()
+            press_escape()
+            assert not sheet.isVisible(), type(sheet).__name__
+            assert journey.place == place
+            seen.append(type(sheet).__name__)
+    assert set(seen) >= {"PatientForm", "StartAngleDialog", "NoteDialog", "PainDialog", "ExclusionDialog"}
+    journey.navigator.switch_screen("patients")
+    journey.messages.show_fault(DiskFull("x"))
+    press_escape()
+    assert journey.messages.dialog.isVisible()
+    journey.messages.dialog.answer_buttons[-1].click()
+    assert not journey.messages.is_busy

@@ -10,19 +10,57 @@ from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 import pytest
-from PySide6.QtCore import QLocale
+from PySide6.QtCore import QLocale, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.records.session_setup import SessionSetup
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.fonts import load_fonts
 from carpus.ui.kit.style import apply_style
 from carpus.ui.kit.theme import Theme
+from carpus.ui.screens.live.number_card import Reading
+from carpus.ui.screens.live.recording import MIN_RECORDING_S
 from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.review.screen import ReviewScreen
-from tests.ui.fakes import FakeFeed, FakeSessions, figures_once, set_up
-from tests.ui.live_tried import TriedLive
+from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeSessions, figures_once, set_up
+
+
+class TriedLive:
+    """The live screen on a simulated feed, whose time passes only in :meth:`run`."""
+
+    def __init__(self, qtbot: QtBot, screen: LiveScreen, feed: FakeFeed, set_up: SessionSetup) -> None:
+        self.screen, self.feed = screen, feed
+        self._qtbot = qtbot
+        self.measuring = FakeMeasuring(feed)
+        feed.picture_number = 0
+        self.begin(set_up)
+
+    def begin(self, set_up: SessionSetup) -> None:
+        self.screen.open_source(self.measuring, set_up)
+        self.screen._timer.stop()
+
+    def run(self, seconds: float) -> None:
+        for _ in range(round(seconds * 30 / 2)):
+            self.feed.step(2)
+            self.screen.draw()
+
+    def press(self, key: Qt.Key) -> None:
+        self._qtbot.keyClick(self.screen, key)
+
+    def record(self) -> None:
+        """A recording that began a moment ago."""
+        self.press(Qt.Key.Key_Space)
+        self._qtbot.waitUntil(lambda: self.screen.recording.counter is not None)
+        self.screen.recording._started_at_s -= MIN_RECORDING_S
+        assert self.feed.is_recording
+
+    def reading(self) -> Reading:
+        """The large number now."""
+        self.screen._show_values()
+        return self.screen.number_card.reading
+
 
 WidgetT = TypeVar("WidgetT", bound=QWidget)
 Show = Callable[..., WidgetT]

@@ -50,19 +50,7 @@ def paint_marker_map(painter: QPainter, box: QRectF, side: Side, *, whole_hand: 
         painter.setBrush(QColor(MARKER_COLOR))
         size = radius * (0.8 if name.startswith(("TIP", "DIP")) else 1.0)
         painter.drawEllipse(at, size, size)
-    named = dict.fromkeys(PALM_MARKERS, "")
-    if whole_hand:
-        named = {
-            "WRIST": "",
-            "CMC1": "",
-            "MCP5": "",
-            "PIP5": "",
-            "DIP5": "",
-            "TIP5": "",
-            "MCP1": "",
-            "IP1": "",
-            "TIP1": "",
-        }
+    named = ("WRIST", "CMC1", "MCP5", "PIP5", "DIP5", "TIP5", "MCP1", "IP1", "TIP1") if whole_hand else PALM_MARKERS
     sign = 1.0 if side == "right" else -1.0
     text = font(14 * unit, SEMIBOLD)
     rows: dict[int, list[tuple[float, str, QPointF]]] = {-1: [], 1: []}

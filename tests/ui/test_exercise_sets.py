@@ -1,4 +1,4 @@
-"""Sets of exercises: kept, damaged, run part after part with rest, and each part stored as its own exercise."""
+"""The first step of the set-up, and sets of exercises: kept, damaged, run part by part with rest, each stored apart."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 from sqlalchemy import select, update
 
@@ -29,6 +30,8 @@ from carpus.ui.picture.movement_guide import ExerciseSnapshot, GuideScene
 from carpus.ui.screens.live.flow import STOP_DELAY_S, CourseRunner
 from carpus.ui.screens.live.screen import LiveScreen
 from carpus.ui.screens.patient.view_controller import PatientViewController
+from carpus.ui.screens.setup.exercise import ExerciseScreen
+from tests.ui.conftest import Show
 from tests.ui.contexts import RecordingMessages, make_context
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 
@@ -152,3 +155,48 @@ def test_next_session_begins_with_set_of_last_one(library: DataFolder) -> None:
     assert again.set_run.run_id != first.set_run.run_id
     save_sets(library.store, DEFAULT_SETS, (OWN,))
     assert read_last_setup(library.store, patient).set_run is None  # type: ignore[union-attr]
+
+
+LINDEN = Patient("Linden 42", "right", patient_id="linden")
+
+
+@pytest.fixture
+def screen(show: Show[ExerciseScreen]) -> ExerciseScreen:
+    screen = ExerciseScreen(Theme())
+    screen.show_patient(LINDEN, None, "right", False)
+    return show(screen)
+
+
+def test_target_invalid_is_marked_and_prevents_continuing(qtbot: QtBot, screen: ExerciseScreen) -> None:
+    sent: list[object] = []
+    screen.set_up_chosen.connect(sent.append)
+    for typed in ("-200", "200", "0", "abc", "4o", "1e3", "nan"):
+        screen.target_fields[1].clear()
+        qtbot.keyClicks(screen.target_fields[1], typed)
+        assert screen.target_fields[1].text() == typed
+        assert screen.problem_label.isVisible()
+        assert "90°" in screen.problem_label.text()
+        assert not screen.primary_button.isEnabled()
+        qtbot.keyClick(screen.exercises.current(), Qt.Key.Key_Return)
+        assert not sent
+    screen.target_fields[1].clear()
+    qtbot.keyClicks(screen.target_fields[1], "35")
+    assert not screen.problem_label.isVisible()
+    qtbot.keyClick(screen.exercises.current(), Qt.Key.Key_Return)
+    assert sent
+
+
+def test_targets_are_recalled_for_the_same_patient_only(screen: ExerciseScreen) -> None:
+    last = replace(set_up(), target_positive_deg=37.5, target_negative_deg=-20.0)
+    screen.show_patient(LINDEN, last, "right", False)
+    assert [field.value() for field in screen.target_fields] == [37.5, -20.0]
+    screen.show_patient(Patient("Fir 12", "left", patient_id="fir"), None, "left", False)
+    assert all(math.isnan(field.value()) for field in screen.target_fields)
+
+
+def test_target_is_taken_as_it_is_written(qtbot: QtBot, screen: ExerciseScreen) -> None:
+    for typed, degrees in (("37,5", 37.5), ("37.5", 37.5), ("40", 40.0), ("40°", 40.0), (" ", math.nan)):
+        screen.target_fields[0].clear()
+        qtbot.keyClicks(screen.target_fields[0], typed)
+        assert screen.primary_button.isEnabled()
+        assert screen.set_up().target_positive_deg == pytest.approx(degrees, nan_ok=True)

@@ -20,24 +20,19 @@ from carpus.ui.screens.live import recording as live_recording
 from carpus.ui.screens.live.recording import COUNTDOWN_S, STILL_DEG, STILL_S, RepetitionCounter, StartTrigger
 from carpus.ui.screens.live.status_light import StatusLight, SteadyLight, marker_light
 from tests.moments import with_moment
-from tests.ui.conftest import Live
+from tests.ui.conftest import Live, TriedLive
 from tests.ui.fakes import FakeFeed, LateFeed, simulated, tracked_frames
-from tests.ui.live_tried import TriedLive
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
 
-def test_number_is_that_of_the_frame_shown(live: Live) -> None:
+def test_number_and_speeds_are_those_of_the_frame_shown(live: Live) -> None:
     tried = live(FakeFeed(), 5.0)
-    shown = math.degrees(float(tried.feed.current_view().tracked.kinematics.angles_rad[1]))
+    curves, moved = tried.screen.curves, tried.feed.current_view().tracked.kinematics
+    shown = math.degrees(float(moved.angles_rad[1]))
     assert tried.reading().value_deg == pytest.approx(shown)
     assert tried.screen.number_card.movement_name() == ("Flexion" if shown > 0 else "Extension")
     assert tried.screen.controls.light_view.status_light.rank == "good"
-
-
-def test_f4_shows_measured_speeds_in_place_of_angles_and_back(live: Live) -> None:
-    tried = live(FakeFeed(), 5.0)
-    curves, moved = tried.screen.curves, tried.feed.current_view().tracked.kinematics
     tried.press(Qt.Key.Key_F4)
     assert len(curves.panels()) == 2
     speed_mm_s, turning_deg_s = curves._history.speeds
