@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 
-from carpus.app.desktop.access_log import AccessLogger
 from carpus.app.desktop.appearance import apply_appearance, theme_name
 from carpus.app.desktop.first_start import TourController, WelcomeController
 from carpus.app.desktop.log import LOG_FORMATTER
-from carpus.app.desktop.main_controller import MainController
+from carpus.app.desktop.main_controller import AccessLogger, MainController
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.practice_system import PracticeSystemController
 from carpus.app.desktop.preferences import PreferencesController
@@ -36,7 +35,7 @@ from carpus.ui.screens.records.backup import BackupController
 from carpus.ui.screens.records.deletion import DeletionController
 from carpus.ui.screens.records.lock import LockController
 from carpus.ui.screens.records.record_lists import RecordListsController
-from carpus.ui.screens.settings.therapist_store import TherapistController
+from carpus.ui.screens.settings.therapists import TherapistController
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.words.camera_check import camera_words
 from carpus.ui.words.fault_words import fault_words
@@ -146,7 +145,7 @@ def _show_startup_notices(
 def _connect_settings(
     screen: SettingsScreen, controller: MainController, therapists: TherapistController, theme: Theme
 ) -> None:
-    from carpus.ui.screens.settings.camera_card import CameraCard
+    from carpus.ui.screens.settings.screen import CameraCard
 
     navigator, camera = controller.navigator, controller.camera_state
     card = CameraCard(theme)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QGuiApplication
@@ -26,7 +27,9 @@ from carpus.ui.screens.tour.bubble import ONLY_READ, Bubble, BubbleView, TourSta
 from carpus.ui.screens.welcome.panel import WelcomePanel
 from carpus.ui.shell.main_window import MIN_SIZE_PX
 from carpus.ui.shell.messages import NoticeStrip
-from carpus.ui.shell.view_models import Preferences
+
+if TYPE_CHECKING:
+    from carpus.ui.screens.settings.screen import Preferences
 
 REFRESH_EVERY_MS = 150
 

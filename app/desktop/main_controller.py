@@ -26,11 +26,10 @@ from carpus.core.records.values import Patient
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.shell.camera_state import CameraState
-from carpus.ui.shell.current_selection import CurrentSelection, SourceChoice
+from carpus.ui.shell.current_selection import CurrentSelection, NameDisplay, SourceChoice
 from carpus.ui.shell.flow import PATIENT_TABS, SETUP_STEPS, Flow, Navigator, ScreenContext
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Messages
-from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.recent_locations import RecentLocations
 from carpus.ui.shell.source_opener import OpenSourceFunction, SourceOpener
 
@@ -281,3 +280,38 @@ class MainController(Screens):
         self.background.join()
         if self.current.source is not None:
             self.live.finish()
+
+
+class AccessLogger(QObject):
+    """Logs openings when a screen is shown."""
+
+    log_failed = Signal(object)
+    """Emitted from any thread when the log cannot be written."""
+
+    def __init__(self, controller: MainController, library: DataFolder) -> None:
+        super().__init__(controller)
+        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(controller.comparison.screen.session_ids)
+        self._current, self._library = controller.current, library
+        self._last_access = ("", "")
+        self.log_failed.connect(controller.messages.show_fault)
+        library.on_fault = self.log_failed.emit
+        controller.navigator.screen_changed.connect(self._log_access)
+
+    def _log_access(self, place: str) -> None:
+        patient = self._current.patient
+        if place == "review" and self._is_new_access(place, self._current.session_id):
+            self._library.audit_log.log_session("opened", self._current.session_id)
+        elif place == "comparison":
+            for session_id in (
+                self._find_compared_ids() if self._is_new_access(place, " ".join(self._find_compared_ids())) else ()
+            ):
+                self._library.audit_log.log_session("opened", session_id)
+        elif place == "progress" and patient is not None and self._is_new_access(place, patient.patient_id):
+            self._library.audit_log.log_patient("opened", patient.patient_id)
+        elif place == "patients":
+            self._last_access = ("", "")
+
+    def _is_new_access(self, place: str, identity: str) -> bool:
+        """Return False on return from help or settings."""
+        before, self._last_access = self._last_access, (place, identity)
+        return before != self._last_access

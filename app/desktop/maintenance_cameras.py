@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from carpus.app.settings import Settings
 from carpus.core.calibration.card.checks import CheckStatus, check_status, find_camera_serials
@@ -13,6 +14,9 @@ from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import find_camera_name, open_camera
 from carpus.core.capture.source import FrameSource, NoticeHandler
 from carpus.core.pipeline.live import LiveSession
+
+if TYPE_CHECKING:
+    from carpus.core.capture.devices.process_camera import ProcessCamera
 
 
 class MaintenanceCameras:
@@ -37,14 +41,7 @@ class MaintenanceCameras:
 
     def open_for_check(self) -> LiveSession:
         """Open the camera with its stored calibration, as for a session."""
-        return start_live_session(self.live)
-
-    def live(self, notice: NoticeHandler) -> FrameSource:
-        """Open the camera with its name and stored calibration; ``notice`` receives its faults."""
-        camera, folder = self._settings.camera, self._settings.data_folder
-        measured = read_camera_info(Path(camera.intrinsics).expanduser()).camera if camera.intrinsics else None
-        live = open_camera(camera.uri, camera=measured, notice=notice)
-        return with_stored_calibration(with_given_name(live, folder), folder)
+        return start_live_session(lambda notice: open_chosen_camera(self._settings, notice)[1])
 
     def set_serial(self, serial: str) -> None:
         """Store the serial number of the camera that was opened."""
@@ -58,6 +55,14 @@ class MaintenanceCameras:
         """Read the status of the camera opened last, or of the only known one, from the disk."""
         known = {self._last_serial} if self._last_serial else find_camera_serials(self.folder())
         return check_status(self.folder(), known.pop() if len(known) == 1 else "", now)
+
+
+def open_chosen_camera(settings: Settings, notice: NoticeHandler) -> tuple[ProcessCamera, FrameSource]:
+    """Open the camera of the settings; return it, and as a source with its given name and stored calibration."""
+    intrinsics, folder = settings.camera.intrinsics, settings.data_folder
+    measured = read_camera_info(Path(intrinsics).expanduser()).camera if intrinsics else None
+    camera = open_camera(settings.camera.uri, camera=measured, notice=notice)
+    return camera, with_stored_calibration(with_given_name(camera, folder), folder)
 
 
 def start_live_session(open_source: Callable[[NoticeHandler], FrameSource]) -> LiveSession:

@@ -23,11 +23,10 @@ from carpus.core.model.errors import CarpusFault
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.kit.theme import Theme, ThemeName
-from carpus.ui.shell.view_models import Preferences
 
 if TYPE_CHECKING:
     from carpus.ui.screens.settings.flow import SettingsFlow
-    from carpus.ui.screens.settings.screen import SettingsScreen
+    from carpus.ui.screens.settings.screen import Preferences, SettingsScreen
 
 
 SETTING_PATHS = {
@@ -76,6 +75,7 @@ class PreferencesController(QObject):
 
     def _create_flow(self) -> SettingsFlow:
         from carpus.ui.screens.settings.flow import SettingsFlow
+        from carpus.ui.screens.settings.screen import Preferences
 
         settings, context = self.settings, self._controller.context
         now = {name: getattr(getattr(settings, part), of) for name, (part, of) in SETTING_PATHS.items()}

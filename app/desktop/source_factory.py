@@ -8,14 +8,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from carpus.app.desktop.hand_calibrator import CalibrationFrames, HandCalibrator
+from carpus.app.desktop.maintenance_cameras import open_chosen_camera
 from carpus.app.desktop.practice import PracticeRenderer, practice_play_count
 from carpus.app.settings import Settings
 from carpus.app.sources import open_recording
+from carpus.core.calibration.hand_calibrator import CalibrationFrames, HandCalibrator
 from carpus.core.calibration.result import Calibration
-from carpus.core.capture.calibrated_source import with_given_name, with_stored_calibration
-from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.playback_sources import PacedSource, PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
 from carpus.core.model.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
@@ -88,11 +86,7 @@ class SourceFactory:
     def _open_camera(self, set_up: SessionSetup) -> OpenSource:
         faults: list[CarpusFault] = []
         handlers: list[Callable[[CarpusFault], None]] = [faults.append]
-        named = self._settings.camera.intrinsics
-        camera = read_camera_info(Path(named).expanduser()).camera if named else None
-        live = open_camera(self._settings.camera.uri, camera=camera, notice=lambda fault: handlers[-1](fault))
-        folder = self._settings.data_folder
-        source = with_stored_calibration(with_given_name(live, folder), folder)
+        camera, source = open_chosen_camera(self._settings, lambda fault: handlers[-1](fault))
         session = self._create_session(source)
         handlers.append(session.handle_notice)
         for fault in faults:
@@ -100,7 +94,7 @@ class SourceFactory:
         session.start()
         frames = _live_frames(session)
         # From the calibration on, the markers must keep their colours.
-        return self._build_open_source(session, source, set_up, frames, on_tracking_started=live.lock_exposure)
+        return self._build_open_source(session, source, set_up, frames, on_tracking_started=camera.lock_exposure)
 
     def _open_practice(self, set_up: SessionSetup, progress: Progress) -> OpenSource:
         """Open the still hand at once; the movements are rendered meanwhile."""
@@ -168,7 +162,8 @@ class SourceFactory:
             source.info.camera,
             set_up.side,
             set_up.protocol,
-            track,
+            track.detection,
+            track.calibration,
             measuring.start_tracking,
             self._new_sessions.last_hand_length_mm(set_up, simulated=is_simulated(source.info)),
             self._new_sessions.last_straight_fingers(set_up),

@@ -18,7 +18,6 @@ from carpus.app.desktop.preferences import PreferencesController
 from carpus.app.desktop.screens import load_core, load_screens
 from carpus.core.records.data_folder import DataFolder
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.garbage_collection import GarbageCollector
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.screens.records.backup import BackupController
@@ -27,6 +26,28 @@ from carpus.ui.screens.records.lock import LockController
 from carpus.ui.screens.records.record_lists import RecordListsController
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.recent_locations import RecentLocations, encode_geometry, restore_window
+
+COLLECT_INTERVAL_MS = 100
+
+
+def collect_due_garbage() -> None:
+    """Collect the oldest generation that is due, as Python's own collector would."""
+    for generation in (2, 1, 0):
+        if gc.get_count()[generation] > gc.get_threshold()[generation]:
+            gc.collect(generation)
+            return
+
+
+class GarbageCollector(QObject):
+    """Timer that replaces Python's collector, which runs in whichever thread has just allocated."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        gc.disable()
+        self._timer = QTimer(self, interval=COLLECT_INTERVAL_MS)
+        self._timer.timeout.connect(collect_due_garbage)
+        self._timer.start()
+
 
 PRELOAD_DELAY_MS = 200
 """Preloading starts after the first paint."""

@@ -20,7 +20,7 @@ from carpus.core.capture.source import SERIAL as SAID_SERIAL
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.types import SIMULATED, Frame
-from carpus.ui.screens.settings.camera_card import CameraCard
+from carpus.ui.screens.settings.screen import CameraCard
 from tests.studio import LENS, Studio, poses, render_texture
 
 SERIAL = "studio"

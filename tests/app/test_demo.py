@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.maintenance_cameras import MaintenanceCameras
 from carpus.app.desktop.window import Desktop
-from carpus.ui.screens.settings.camera_card import CameraCard
+from carpus.ui.screens.settings.screen import CameraCard
 from tests.records.samples import HERON, LINDEN
 
 

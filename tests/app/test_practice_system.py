@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
+from carpus.app.desktop.practice_system import PracticeSystemCard
 from carpus.app.desktop.window import Desktop
 from carpus.app.settings import PREFERENCES_FILE, PracticeSystemSettings, ScreenSettings, Settings, settings_folder
 from carpus.core.formats.gdt import parse_fields
 from carpus.core.records.values import Patient
-from carpus.ui.screens.settings.practice_system_card import PracticeSystemCard
 from tests.app.test_library import set_up, store
 from tests.formats.test_gdt import MUSTERMANN, encode
 

@@ -19,7 +19,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.window import Desktop
+from carpus.app.desktop.window import Desktop, GarbageCollector
 from carpus.app.settings import RecordingSettings, ReportSettings, Settings, load_valid_settings
 from carpus.core.records.changes import fingerprint
 from carpus.core.records.clinic_records import read_therapists, save_therapists
@@ -29,7 +29,6 @@ from carpus.core.records.log import read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.restoring import activate_restored
 from carpus.core.records.values import BackupSettings, Patient, Therapist
-from carpus.ui.kit.garbage_collection import GarbageCollector
 from carpus.ui.shell.messages import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces

@@ -30,7 +30,7 @@ from carpus.core.results.task_measures import (
     _thumb_distance_sd_m,
     find_session_reaches,
 )
-from carpus.ui.kit.cells import cell_text
+from carpus.ui.kit.table import cell_text
 from carpus.ui.words.ranges import range_table
 from carpus.ui.words.session import method_words
 from carpus.ui.words.task_measures import measure_name, short_task_summary, task_summary, task_table

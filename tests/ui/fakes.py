@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from carpus.core.calibration.calibrate import MeasuredHand, MeasurementNoise
+from carpus.core.calibration.hand_calibrator import FoundMarker
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.measures.manual_measurements import ManualValue
@@ -42,14 +44,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.ui.kit.language import current_language
 from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
 from carpus.ui.report.session_page import build_session_report
-from carpus.ui.shell.view_models import (
-    MAX_LISTED_PATIENTS,
-    CalibrationAssessment,
-    FoundMarker,
-    LabelProposal,
-    MeasureWithChange,
-    PatientCard,
-)
+from carpus.ui.screens.patients.patient_store import MAX_LISTED_PATIENTS, MeasureWithChange, PatientCard
 from tests.moments import with_moment
 
 FPS = 30.0
@@ -561,9 +556,6 @@ class FakeCalibrator:
 
     previous_straight_fingers = (True, True, True, True, True)
 
-    def count_candidates(self) -> int:
-        return 6
-
     def candidate_px(self) -> np.ndarray:
         return self.disc_px
 
@@ -575,14 +567,14 @@ class FakeCalibrator:
         nearest = int(distance.argmin())
         return FoundMarker(self.disc_px[nearest], 10.0) if distance[nearest] < 8.0 else None
 
-    def propose_labels(self, named: Mapping[str, np.ndarray]) -> dict[str, LabelProposal]:
+    def propose_labels(self, named: Mapping[str, np.ndarray]) -> dict[str, FoundMarker]:
         return {
-            name: LabelProposal(pixel, 10.0, name not in self.doubtful)
+            name: FoundMarker(pixel, 10.0, name not in self.doubtful)
             for name, pixel in zip(self.protocol.markers, self.disc_px, strict=True)
             if name not in named and name not in self.not_found
         }
 
-    def assess(self, clicks: Clicks, start_angles_rad: np.ndarray) -> CalibrationAssessment:
+    def assess(self, clicks: Clicks, start_angles_rad: np.ndarray) -> MeasuredHand:
         self.judged.append(clicks)
         self.angles.append(start_angles_rad)
         perfect = calibration(self.pictures)
@@ -590,7 +582,7 @@ class FakeCalibrator:
         tilt = next((finding for finding in self.findings if finding.kind == "tilt"), None)
         if tilt is not None:
             verdict = replace(verdict, tilt_deg=tilt.value)
-        return CalibrationAssessment(verdict, perfect if verdict.can_start else None)
+        return MeasuredHand(verdict, perfect if verdict.can_start else None, MeasurementNoise())
 
     def start_tracking(self, calibration: Calibration) -> None:
         self.begun = calibration

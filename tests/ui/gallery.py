@@ -62,16 +62,15 @@ from carpus.ui.screens.report.screen import ReportScreen
 from carpus.ui.screens.review.screen import ReviewScreen
 from carpus.ui.screens.sessions.screen import SessionsScreen
 from carpus.ui.screens.settings.retest_dialog import RetestDialog
-from carpus.ui.screens.settings.screen import SettingsScreen
+from carpus.ui.screens.settings.screen import Preferences, SettingsScreen
 from carpus.ui.screens.setup.camera import CameraScreen
 from carpus.ui.screens.setup.exercise import ExerciseScreen
 from carpus.ui.screens.setup.set_dialog import SetDialog
 from carpus.ui.screens.tour.bubble import Bubble, BubbleView
 from carpus.ui.screens.welcome.panel import WelcomePanel
+from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog, NoticeStrip
-from carpus.ui.shell.name_display import NameDisplay
-from carpus.ui.shell.view_models import Preferences
 from carpus.ui.words.camera_check import camera_words
 from carpus.ui.words.fault_words import fault_words
 from tests.ui.camera_fakes import board_progress, board_result, card_progress, checked

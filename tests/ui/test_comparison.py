@@ -11,7 +11,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import SessionPair, compare_pair
 from carpus.ui.kit.background import Background
-from carpus.ui.kit.cells import cell_text
+from carpus.ui.kit.table import cell_text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.comparison.screen import ComparisonScreen, difference_table, facts_words, headline, warning_words
 from carpus.ui.words.fingers import progress_keys

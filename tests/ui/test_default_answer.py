@@ -41,7 +41,7 @@ from carpus.ui.screens.review.screen import ExclusionDialog
 from carpus.ui.screens.sessions.dialogs import ChoiceDialog, ExcludeDialog
 from carpus.ui.screens.settings.retest_dialog import RetestDialog
 from carpus.ui.screens.setup.set_dialog import SetDialog
-from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.shell.camera_session import CameraNameDialog
 from carpus.ui.shell.messages import Answer, MessageDialog
 from tests.ui.fakes import NOW, FakeStore, home_report, retest_studies
 from tests.ui.gallery import ERASED_SESSION, LAST_BACKUP, TODAY

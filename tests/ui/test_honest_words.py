@@ -31,9 +31,9 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.text import StateText, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.patients.card import PatientCardView
+from carpus.ui.screens.patients.patient_store import PatientCard
 from carpus.ui.screens.progress.screen import ProgressScreen
-from carpus.ui.shell.name_display import NameDisplay
-from carpus.ui.shell.view_models import PatientCard
+from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.words.finger_angles import find_finger_angle
 from carpus.ui.words.fingers import main_angles, main_result_words
 from carpus.ui.words.progress import change_since_first, difference_words, value_pair, verdict_word

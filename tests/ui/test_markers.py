@@ -10,6 +10,8 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.core.calibration.calibrate import MeasuredHand
+from carpus.core.calibration.hand_calibrator import FoundMarker
 from carpus.core.calibration.result import CalibrationFinding, Clicks
 from carpus.core.model.hand.protocols import HAND21, WRIST6
 from carpus.ui.kit.background import Background
@@ -17,7 +19,6 @@ from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.markers.labelling import LabelState
 from carpus.ui.screens.markers.marker_frame import MarkerFrameView
 from carpus.ui.screens.markers.screen import MarkersScreen
-from carpus.ui.shell.view_models import CalibrationAssessment, LabelProposal
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts
@@ -135,7 +136,7 @@ def test_markers_pending_result_is_dropped_for_new_frame(
     calibrator, asked, worked_out = FakeCalibrator(is_live=True), threading.Event(), threading.Event()
     calibrator.not_found = ()
 
-    def judge(clicks: Clicks, angles: np.ndarray) -> CalibrationAssessment:
+    def judge(clicks: Clicks, angles: np.ndarray) -> MeasuredHand:
         asked.set()
         worked_out.wait(60.0)
         return FakeCalibrator().assess(clicks, angles)
@@ -228,7 +229,7 @@ def test_enter_never_takes_a_doubtful_name_unseen(marking: Marking) -> None:
 def test_proposed_name_dropped_on_taken_marker_changes_places_with_it() -> None:
     clicking = LabelState(HAND21, "right")
     places = {name: np.array([20.0 * i, 0.0]) for i, name in enumerate(HAND21.markers)}
-    clicking.set_proposals({name: LabelProposal(at, 9.0, True) for name, at in places.items()})
+    clicking.set_proposals({name: FoundMarker(at, 9.0, True) for name, at in places.items()})
     clicking.current = "TIP3"
     assert clicking.set_label(places["TIP4"], 9.0), "the two change places"
     np.testing.assert_allclose(clicking.confirmed_px["TIP3"], places["TIP4"])
@@ -239,7 +240,7 @@ def test_proposed_name_dropped_on_taken_marker_changes_places_with_it() -> None:
     np.testing.assert_allclose(clicking.confirmed_px["PIP2"], places["TIP2"])
     assert clicking.is_complete
     clicking = LabelState(HAND21, "right")
-    clicking.set_proposals({"WRIST": LabelProposal(places["WRIST"], 9.0, True)})
+    clicking.set_proposals({"WRIST": FoundMarker(places["WRIST"], 9.0, True)})
     assert not clicking.set_label(places["WRIST"], 9.0), "one that was nowhere takes the disc: names are asked for anew"
 
 

@@ -21,9 +21,9 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, PAPERS, Letterhead, Paper, ReportForm
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import TableColumn
 from carpus.ui.kit.language import use_language
 from carpus.ui.kit.layouts import STRETCH
+from carpus.ui.kit.table import TableColumn
 from carpus.ui.report import session_page
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport

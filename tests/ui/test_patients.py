@@ -27,9 +27,9 @@ from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.photo import crop_to_markers
 from carpus.ui.screens.patients.patient_form import PatientForm
+from carpus.ui.screens.patients.patient_store import MAX_LISTED_PATIENTS
 from carpus.ui.screens.patients.screen import PatientsScreen
-from carpus.ui.shell.name_display import NameDisplay
-from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
+from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore

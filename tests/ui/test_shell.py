@@ -17,11 +17,10 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.report.session_page import build_session_report
 from carpus.ui.screens.report.screen import ReportScreen
-from carpus.ui.screens.settings.screen import SettingsScreen
+from carpus.ui.screens.settings.screen import Preferences, SettingsScreen
 from carpus.ui.shell.flow import Navigator
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog
-from carpus.ui.shell.view_models import Preferences
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeSessions
 

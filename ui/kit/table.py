@@ -1,20 +1,68 @@
-"""Table widget, the same on screen and paper."""
+"""Table widget, the same on screen and paper, and its content."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QListView, QWidget
 
 from carpus.ui.kit.card import ColorFill, Separator
-from carpus.ui.kit.cells import Cell, TableColumn, cell_text
+from carpus.ui.kit.icons import State
 from carpus.ui.kit.layouts import clear_layout, column_layout, grid_layout, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, ElidedText, Icon, PlainText
 from carpus.ui.kit.theme import Theme
+
+VERDICT_TOKENS = {"improved": "good", "worse": "bad", "warn": "warn"}
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Text of a table with its appearance.
+
+    ``subtext`` is a smaller line below it; before it stands the colour ``mark_token`` of a curve or the icon of a
+    ``state``.
+    """
+
+    text: str
+    weight: int = REGULAR
+    token: str = "text"
+    subtext: str = ""
+    mark_token: str = ""
+    state: State | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TableColumn:
+    """Appearance of a column; text wraps once it has ``min_letters`` characters, ``scale`` is that of the font."""
+
+    weight: int = REGULAR
+    token: str = "text"
+    is_right_aligned: bool = False
+    is_wrapped: bool = True
+    min_letters: int = 0
+    scale: float = 1.0
+
+
+TableRow = tuple[str | Cell, ...]
+
+
+class TableContent(NamedTuple):
+    """Columns, head and rows of a table; a column without any text is not shown."""
+
+    columns: tuple[TableColumn, ...]
+    heads: TableRow
+    rows: tuple[TableRow, ...]
+
+
+def cell_text(cell: str | Cell) -> str:
+    """Return the text of a cell."""
+    return cell if isinstance(cell, str) else cell.text
+
 
 # A longer text does not widen its column: it wraps.
 MAX_LETTERS = 26

@@ -16,8 +16,8 @@ from PySide6.QtWidgets import QLayout, QVBoxLayout
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import TableColumn, cell_text
 from carpus.ui.kit.layouts import STRETCH, Item, Part
+from carpus.ui.kit.table import TableColumn, cell_text
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.report.page import (

@@ -18,11 +18,10 @@ from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.chart import Chart
 from carpus.ui.charts.panel import PlotStyle, paper_style
 from carpus.ui.kit.card import Separator
-from carpus.ui.kit.cells import Cell, TableColumn
 from carpus.ui.kit.fonts import font
 from carpus.ui.kit.language import thread_language, use_language
 from carpus.ui.kit.layouts import STRETCH, Part, column_layout, row_layout
-from carpus.ui.kit.table import Table
+from carpus.ui.kit.table import Cell, Table, TableColumn
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr

@@ -18,8 +18,8 @@ from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import ProgressChart
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn
 from carpus.ui.kit.layouts import STRETCH, Part
+from carpus.ui.kit.table import VERDICT_TOKENS, Cell, TableColumn
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.report.page import (

@@ -34,8 +34,8 @@ from carpus.core.session.values import Session
 from carpus.ui.charts.session import FLEXION_KINDS, HandPlot, SessionChart, SessionPlot
 from carpus.ui.kit import numbers
 from carpus.ui.kit.card import ColorFill
-from carpus.ui.kit.cells import cell_text
 from carpus.ui.kit.layouts import STRETCH, Part
+from carpus.ui.kit.table import cell_text
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, PlainText
 from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.report.motion_page import motion_page

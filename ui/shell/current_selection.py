@@ -1,4 +1,4 @@
-"""The patient, set-up, source and session that are open."""
+"""The patient, set-up, source and session that are open, and how a patient is named while names are hidden."""
 
 from __future__ import annotations
 
@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Literal
 from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Patient
 from carpus.ui.kit.translate import tr
-from carpus.ui.shell.view_models import Calibrator
 
 if TYPE_CHECKING:
+    from carpus.core.calibration.hand_calibrator import HandCalibrator
     from carpus.core.pipeline.measurement import MeasurementController
+from PySide6.QtCore import QObject, Signal
+
+from carpus.ui.words.terms import identity_words
 
 SourceKind = Literal["camera", "file", "practice"]
 
@@ -37,7 +40,7 @@ class OpenSource:
     the simulated hand rests because its movement is not rendered yet.
     """
 
-    calibrator: Calibrator
+    calibrator: HandCalibrator
     measuring: MeasurementController
     is_registration_unknown: bool = False
     is_hand_resting: Callable[[], bool] = lambda: False
@@ -79,3 +82,34 @@ class CurrentSelection:
 def practice_patient_name() -> str:
     """Return the practice patient's name in the user's language."""
     return tr("Practice patient")
+
+
+class NameDisplay(QObject):
+    """Switch “Hide names” of the window.
+
+    Signals: ``changed`` when names were hidden or shown again.
+    """
+
+    changed = Signal()
+    is_hidden = False
+
+    def set_hidden(self, is_hidden: bool) -> None:
+        if is_hidden != self.is_hidden:
+            self.is_hidden = is_hidden
+            self.changed.emit()
+
+    def real_name(self, patient: Patient) -> str:
+        """Return the real name; empty while names are hidden."""
+        return "" if self.is_hidden else patient.name
+
+    def title(self, patient: Patient | None) -> str:
+        """Return ``Linden 42 · Erika Mustermann``; empty without a patient."""
+        if patient is None:
+            return ""
+        if patient.patient_id == PRACTICE_PATIENT:
+            return practice_patient_name()
+        return " · ".join(part for part in (patient.pseudonym, self.real_name(patient)) if part)
+
+    def identity(self, patient: Patient) -> str:
+        """Return ``born 12 Mar 1981, female, No. 4711``; empty while names are hidden."""
+        return "" if self.is_hidden else identity_words(patient)

@@ -19,10 +19,9 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.theme import Theme
 from carpus.ui.shell.camera_state import CameraAccess, CameraState
-from carpus.ui.shell.current_selection import CurrentSelection
+from carpus.ui.shell.current_selection import CurrentSelection, NameDisplay
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Messages, show_files_written
-from carpus.ui.shell.name_display import NameDisplay
 from carpus.ui.shell.recent_locations import FolderKind, RecentLocations
 from carpus.ui.shell.source_opener import SourceOpener
 

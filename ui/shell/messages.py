@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 
 from carpus.core.model.errors import CameraLost
 from carpus.core.model.fault_text import MessageText
@@ -20,12 +20,11 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, Separator
 from carpus.ui.kit.dialog import Dialog
-from carpus.ui.kit.layouts import clear_layout, column_layout, fill, row_layout
+from carpus.ui.kit.layouts import STRETCH, clear_layout, column_layout, fill, row_layout
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Icon, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr
 from carpus.ui.shell.current_selection import practice_patient_name
-from carpus.ui.shell.fault_details import LINE_BREAK_HINT, FaultDetails
 from carpus.ui.words.fault_words import fault_words
 
 log = logging.getLogger(__name__)
@@ -376,3 +375,47 @@ class MessageDialog(Dialog):
                 button.click()
                 return
         super().keyPressEvent(event)
+
+
+LINE_BREAK_HINT = "\u200b"
+"""Zero-width space that lets a long name break."""
+
+
+class FaultDetails(QWidget):
+    """Row with subject and code of a fault; “Details” shows what only support needs."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._words = MessageText("", "", "")
+        self.code = Text(theme, "", 14, REGULAR, "text2")
+        self.toggle_button = Button(theme, self.tr("Details"), "quiet", height_px=36)
+        self.copy_button = Button(theme, self.tr("Copy"), "quiet", height_px=36)
+        self.text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        head = row_layout(self.code, STRETCH, self.copy_button, self.toggle_button, gap=8)
+        self.setLayout(column_layout(head, self.text, gap=4))
+        self.toggle_button.setCheckable(True)
+        self.toggle_button.toggled.connect(self._show_text)
+        self.copy_button.clicked.connect(lambda: QApplication.clipboard().setText(self.full_text()))
+
+    def show_words(self, words: MessageText) -> None:
+        """Show the facts of a fault; hide the row for a message without a code."""
+        self._words = words
+        self.setVisible(bool(words.code))
+        self.code.setText(f"{words.title} · {words.code}")
+        self.text.setText(
+            "\n".join(
+                part.replace("/", f"/{LINE_BREAK_HINT}").replace("_", f"_{LINE_BREAK_HINT}") for part in words.details
+            )
+        )
+        self.toggle_button.setVisible(bool(words.details))
+        self.toggle_button.setChecked(False)
+        self._show_text(False)
+
+    def full_text(self) -> str:
+        """Return everything that IT support needs, as plain text."""
+        return "\n".join((f"{self._words.code} {self._words.summary}", *self._words.details))
+
+    def _show_text(self, is_open: bool) -> None:
+        self.text.setVisible(is_open)
+        self.copy_button.setVisible(is_open)

@@ -11,7 +11,7 @@ from carpus.core.results.measure import Measure, MeasureKey, is_total_active_mot
 from carpus.core.results.progress import Comparison, compare_ranges
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import TableColumn, TableContent
+from carpus.ui.kit.table import TableColumn, TableContent
 from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, AngleKind, FingerAngle

@@ -12,8 +12,8 @@ from carpus.core.results.progress import compare_ranges
 from carpus.core.results.ranges import abduction_measure_keys, finger_measure_keys, thumb_measure_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.kit.table import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.translate import to_mid_sentence, tr, translate_phrase
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import (

@@ -16,8 +16,8 @@ from carpus.core.results.progress import Comparison, compare_ranges
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.fonts import MEDIUM, SEMIBOLD
+from carpus.ui.kit.table import VERDICT_TOKENS, Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.theme import CURVE_TOKENS
 from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.words import terms

@@ -12,8 +12,8 @@ from carpus.core.results.measure import Measure
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.task_measures import QUANTITIES
 from carpus.ui.kit import numbers
-from carpus.ui.kit.cells import TableColumn, TableContent, TableRow
 from carpus.ui.kit.fonts import SEMIBOLD
+from carpus.ui.kit.table import TableColumn, TableContent, TableRow
 from carpus.ui.kit.translate import tr, translate_phrase
 
 # The return stroke beside each outward one.

@@ -43,8 +43,8 @@ from carpus.ui.kit.layouts import (
 )
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from carpus.ui.screens.by_hand.change_rows import add_change_rows
 from carpus.ui.screens.by_hand.form import KapandjiChoice, ManualForm
+from carpus.ui.screens.progress.screen import add_change_rows
 from carpus.ui.words import terms
 from carpus.ui.words.manual_values import find_changes, group_names, measure_name
 from carpus.ui.words.terms import to_person

@@ -29,7 +29,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text,
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.picture.view import FrameView
-from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.shell.camera_session import CameraNameDialog
 from carpus.ui.words.camera_calibration import (
     BoardChoice,
     BoardProgress,

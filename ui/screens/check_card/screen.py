@@ -19,7 +19,7 @@ from carpus.ui.kit.text import REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, ON_PICTURE_PROPOSED, Theme
 from carpus.ui.picture.photo import paint_label
 from carpus.ui.picture.view import FrameView
-from carpus.ui.shell.camera_name_dialog import CameraNameDialog
+from carpus.ui.shell.camera_session import CameraNameDialog
 from carpus.ui.words.camera_check import CardProgress, card_hint, check_words
 
 if TYPE_CHECKING:  # a window loads nothing that reads files

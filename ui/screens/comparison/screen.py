@@ -25,11 +25,10 @@ from carpus.ui.charts.series import find_nearest_row
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.card import Card, KeyCaps
-from carpus.ui.kit.cells import Cell, TableColumn, TableContent, TableRow
 from carpus.ui.kit.icons import State
 from carpus.ui.kit.keys import bind_screen_keys
 from carpus.ui.kit.layouts import FittedWidget, column_layout, fill, row_layout, scroll_page
-from carpus.ui.kit.table import Table
+from carpus.ui.kit.table import Cell, Table, TableColumn, TableContent, TableRow
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Icon, Text, caption, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.kit.translate import tr

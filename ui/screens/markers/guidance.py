@@ -9,6 +9,8 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSpinBox, QVBoxLayout, QWidget
 
+from carpus.core.calibration.calibrate import MeasuredHand
+from carpus.core.calibration.hand_calibrator import HandCalibrator
 from carpus.core.calibration.result import ALL_STRAIGHT, CalibrationFinding, Verdict
 from carpus.core.model.fault_text import marker_name
 from carpus.core.model.hand.exercises import DIRECTIONS, PRONOSUPINATION, get_exercise
@@ -29,7 +31,6 @@ from carpus.ui.kit.translate import tr, translate_phrase
 from carpus.ui.picture.hand_drawing import HandDrawing, MarkerState
 from carpus.ui.screens.markers.labelling import LabelState, Remedy, find_faulty_markers
 from carpus.ui.screens.tour.bubble import MIN_SCREEN_PX, BubbleView
-from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator
 from carpus.ui.words import terms
 from carpus.ui.words.fault_words import finding_words
 from carpus.ui.words.terms import click_instruction, finger_name, marker_placement, marker_title
@@ -94,7 +95,7 @@ class GuidancePanel(QWidget):
         self._column.invalidate()
         return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
 
-    def show_preview(self, calibrator: Calibrator) -> None:
+    def show_preview(self, calibrator: HandCalibrator) -> None:
         self.step_label.show_state("none", self.tr("Image"))
         self.title_label.setText(self.tr("Lay the hand flat and still"))
         self.instruction_label.setText(
@@ -153,7 +154,7 @@ class GuidancePanel(QWidget):
         self.second_button.set_label(self.tr("Click the markers"), hint="C")
         self.second_button.show()
 
-    def show_verdict(self, labels: LabelState, outcome: CalibrationAssessment, remedy: Remedy) -> None:
+    def show_verdict(self, labels: LabelState, outcome: MeasuredHand, remedy: Remedy) -> None:
         """Show the checks and the most likely remedy."""
         verdict = outcome.verdict
         words, state = headline(verdict)

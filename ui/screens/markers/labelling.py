@@ -9,15 +9,13 @@ from typing import Literal
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from carpus.core.calibration.calibrate import MeasuredHand
+from carpus.core.calibration.hand_calibrator import SAME_MARKER_PX, FoundMarker, HandCalibrator
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks, Verdict
 from carpus.core.model.hand.protocols import MarkerProtocol
 from carpus.core.model.types import FloatArray, Frame, Side
 from carpus.ui.kit.background import Background
 from carpus.ui.screens.tour.bubble import LabelStage
-from carpus.ui.shell.view_models import CalibrationAssessment, Calibrator, LabelProposal
-
-SAME_MARKER_PX = 3.0
-"""Pixels closer than this are on the same marker."""
 
 
 @dataclass(slots=True)
@@ -42,7 +40,7 @@ class LabelState:
     widths_px: dict[str, float] = field(default_factory=dict)
     current: str = ""
     is_chosen: bool = False
-    proposals: dict[str, LabelProposal] = field(default_factory=dict)
+    proposals: dict[str, FoundMarker] = field(default_factory=dict)
     straight_fingers: tuple[bool, ...] = ALL_STRAIGHT
 
     def __post_init__(self) -> None:
@@ -70,7 +68,7 @@ class LabelState:
         """Proposals that another label would fit nearly as well."""
         return tuple(name for name in self.missing if name in self.proposals and not self.proposals[name].is_sure)
 
-    def set_proposals(self, proposals: Mapping[str, LabelProposal]) -> None:
+    def set_proposals(self, proposals: Mapping[str, FoundMarker]) -> None:
         """Replace the proposals of markers that are not confirmed."""
         self.proposals = {name: proposals[name] for name in self.missing if name in proposals}
         if not (self.is_chosen and self.current in self.missing):
@@ -119,7 +117,7 @@ class LabelState:
         for name in [name for name, one in self.proposals.items() if _is_same_place(one.pixel, pixel)]:
             del self.proposals[name]
             if before is not None:
-                self.proposals[name] = LabelProposal(before, before_width_px, is_sure=True)
+                self.proposals[name] = FoundMarker(before, before_width_px)
             elif mine is not None:
                 self.proposals[name] = mine
         self.confirmed_px[self.current] = np.asarray(pixel, dtype=np.float64)
@@ -202,9 +200,9 @@ class LabellingController(QObject):
     def __init__(self, background: Background) -> None:
         super().__init__()
         self._background = background
-        self.calibrator: Calibrator | None = None
+        self.calibrator: HandCalibrator | None = None
         self.labels: LabelState | None = None
-        self.outcome: CalibrationAssessment | None = None
+        self.outcome: MeasuredHand | None = None
         """Assessment of the present labels, None before."""
         self.start_angles_rad = np.zeros(3)
         self.is_proposing = False
@@ -212,7 +210,7 @@ class LabellingController(QObject):
         self._is_manual = self._starts_if_good = False
         self._proposing = self._judging = 0
 
-    def open_calibrator(self, calibrator: Calibrator) -> None:
+    def open_calibrator(self, calibrator: HandCalibrator) -> None:
         self.calibrator, self.start_angles_rad = calibrator, np.zeros(3)
         self.reset()
 
@@ -273,7 +271,7 @@ class LabellingController(QObject):
         number, calibrator, named = self._proposing, self.calibrator, dict(self.labels.confirmed_px)
         self.is_proposing = True
 
-        def handle_proposals(proposed: Mapping[str, LabelProposal]) -> None:
+        def handle_proposals(proposed: Mapping[str, FoundMarker]) -> None:
             if number != self._proposing or self.labels is None:
                 return
             self.is_proposing = False
@@ -342,7 +340,7 @@ class LabellingController(QObject):
             return
         clicks, angles = self.labels.clicks(), self.start_angles_rad
 
-        def handle_verdict(outcome: CalibrationAssessment) -> None:
+        def handle_verdict(outcome: MeasuredHand) -> None:
             if number != self._judging:
                 return
             self.outcome = outcome

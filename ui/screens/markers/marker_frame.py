@@ -10,6 +10,7 @@ import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen
 
+from carpus.core.calibration.hand_calibrator import FoundMarker
 from carpus.core.model.hand.protocols import CHAIN_NAMES
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray
@@ -27,7 +28,6 @@ from carpus.ui.picture.overlay import draw_with_halo
 from carpus.ui.picture.photo import label_size, paint_label, paint_wrong_label
 from carpus.ui.picture.view import FrameView
 from carpus.ui.screens.markers.labelling import LabelState
-from carpus.ui.shell.view_models import FoundMarker
 from carpus.ui.words.terms import finger_name, marker_title
 
 LOUPE_PX, LOUPE_ZOOM = 204, 8.0

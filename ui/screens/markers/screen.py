@@ -9,6 +9,7 @@ from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt, QTimer
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QBoxLayout, QWidget
 
+from carpus.core.calibration.hand_calibrator import HandCalibrator
 from carpus.core.model.fault_text import marker_name
 from carpus.core.model.types import ByteImage, FloatArray
 from carpus.ui.kit.background import Background
@@ -29,7 +30,6 @@ from carpus.ui.screens.markers.labelling import (
     find_swapped,
 )
 from carpus.ui.screens.markers.marker_frame import MarkerFrameView
-from carpus.ui.shell.view_models import Calibrator
 from carpus.ui.words import terms
 
 PREVIEW_EVERY_MS = 60
@@ -143,7 +143,9 @@ class MarkersScreen(FittedWidget):
     def initial_focus(self) -> QWidget:
         return self.picture
 
-    def open_calibrator(self, calibrator: Calibrator, last_rgb: ByteImage | None = None, last_day: str = "") -> None:
+    def open_calibrator(
+        self, calibrator: HandCalibrator, last_rgb: ByteImage | None = None, last_day: str = ""
+    ) -> None:
         self.labelling.open_calibrator(calibrator)
         self.picture.labels = None  # of another picture
         self._show_start_angles()
@@ -301,7 +303,7 @@ class MarkersScreen(FittedWidget):
             self.guidance.show_preview(calibrator)
             self.hint.setText("")
         elif outcome is None:
-            sees_none = not clicking.confirmed_px and calibrator.count_candidates() < MIN_MARKERS
+            sees_none = not clicking.confirmed_px and len(calibrator.candidate_px()) < MIN_MARKERS
             self.guidance.show_labelling(clicking, sees_none=sees_none, is_proposing=naming.is_proposing)
             self.hint.setText(self.tr("The hand lies flat and still, palm down. Fingers that stay bent are fine."))
         else:

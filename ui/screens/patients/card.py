@@ -15,14 +15,14 @@ from carpus.core.records.values import Patient
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import ENTER_KEY, Button
 from carpus.ui.kit.card import Card, Separator
-from carpus.ui.kit.cells import VERDICT_TOKENS
 from carpus.ui.kit.layouts import STRETCH, ScrollArea, clear_layout, column_layout, fill, row_layout
+from carpus.ui.kit.table import VERDICT_TOKENS
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.photo import Photo
+from carpus.ui.screens.patients.patient_store import MeasureWithChange, PatientCard
 from carpus.ui.screens.tour.bubble import BubbleView
-from carpus.ui.shell.name_display import NameDisplay
-from carpus.ui.shell.view_models import MeasureWithChange, PatientCard
+from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import find_finger_angle, progress_measure_name
 from carpus.ui.words.progress import change_since_first, duplicate_result_words

@@ -18,7 +18,7 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import MEDIUM, font
 from carpus.ui.kit.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.kit.translate import tr
-from carpus.ui.shell.name_display import NameDisplay
+from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.words import terms
 
 ROW_PX = 56

@@ -3,19 +3,47 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
 
 from carpus.core.model.errors import SessionUnreadable
+from carpus.core.model.types import ByteImage
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.retention import RecordRetention
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.values import Patient
-from carpus.core.results.progress import compare_ranges, incomparable_reasons
+from carpus.core.results.measure import Measure
+from carpus.core.results.progress import Comparison, compare_ranges, incomparable_reasons
 from carpus.core.results.session_results import SessionResults
-from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS, MeasureWithChange, PatientCard
 from carpus.ui.words.fingers import find_main_ranges
 from carpus.ui.words.ranges import repetition_words
 from carpus.ui.words.session import warning_lines
 from carpus.ui.words.task_measures import task_summary
+
+MeasureWithChange = tuple[Measure, Comparison | None]
+"""A measure of the last session and its change since the first comparable one."""
+
+
+@dataclass(frozen=True, slots=True)
+class PatientCard:
+    """Summary of a patient before the next session."""
+
+    patient: Patient
+    results: Sequence[MeasureWithChange] = ()
+    repetitions: str = ""
+    note: str = ""
+    note_date: datetime | None = None
+    marker_photo_rgb: ByteImage | None = None
+    warnings: Sequence[str] = ()
+    """Warnings of the last session: simulated, uncertain, recovered, excluded."""
+    has_sessions: bool = False
+    """Whether there are sessions, also excluded ones."""
+    task_summary: str = ""
+    """Result of a reach or a thumb opposition, in place of ``results``; empty for other exercises."""
+
+
+MAX_LISTED_PATIENTS = 500
+"""Patients shown at once; the others are found by searching."""
 
 
 class PatientStore:

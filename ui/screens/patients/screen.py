@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import date
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
@@ -26,14 +25,11 @@ from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.screens.patients.card import PatientCardView
 from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.patient_list import PatientList, header_columns, place_headings
+from carpus.ui.screens.patients.patient_store import MAX_LISTED_PATIENTS, PatientStore
 from carpus.ui.screens.welcome.panel import WelcomePanel
-from carpus.ui.shell.name_display import NameDisplay
-from carpus.ui.shell.view_models import MAX_LISTED_PATIENTS
+from carpus.ui.shell.current_selection import NameDisplay
 from carpus.ui.words import terms
 from carpus.ui.words.terms import birth_words, record_number_words
-
-if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.screens.patients.patient_store import PatientStore
 
 DATE_CHECK_INTERVAL_MS = 30_000
 MAX_ARCHIVED_SHOWN = 3

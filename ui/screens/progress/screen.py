@@ -17,7 +17,6 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, Separator
-from carpus.ui.kit.cells import VERDICT_TOKENS
 from carpus.ui.kit.field import Combo
 from carpus.ui.kit.keys import bind_screen_keys, mnemonic_key
 from carpus.ui.kit.layouts import (
@@ -32,9 +31,9 @@ from carpus.ui.kit.layouts import (
     row_layout,
     scroll_page,
 )
+from carpus.ui.kit.table import VERDICT_TOKENS
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
-from carpus.ui.screens.by_hand.change_rows import add_change_rows
 from carpus.ui.words import terms
 from carpus.ui.words.fingers import progress_choices, progress_keys
 from carpus.ui.words.manual_values import day_words, find_changes, list_other_values
@@ -52,6 +51,12 @@ from carpus.ui.words.progress import (
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.data_folder import DataFolder
+from collections.abc import Iterable
+
+from PySide6.QtWidgets import QVBoxLayout
+
+from carpus.core.measures.manual_measurements import ManualChange, MeasureKey
+from carpus.ui.words.manual_values import change_words, full_name, verdict_words
 
 MIN_LETTERS = 14
 MIN_CHART_PX, SIDE_PX = 360, 380
@@ -299,3 +304,14 @@ class _ComparisonRow(QWidget):
         top = row_layout(Text(theme, comparison_name(item, comparisons), 14, REGULAR, "text2"), STRETCH, word, gap=8)
         below = row_layout(Text(theme, value_pair(item), 16, SEMIBOLD), (words, 1), gap=8)
         column_layout(top, below, gap=0, margins=(0, 3, 0, 3), parent=self)
+
+
+def add_change_rows(body: QVBoxLayout, theme: Theme, found: Iterable[tuple[MeasureKey, ManualChange]]) -> None:
+    """Add each change with its assessment, then both values."""
+    for key, change in found:
+        body.addWidget(Separator(theme))
+        state, verdict = verdict_words(change)
+        sign = StateText(theme, 14, SEMIBOLD, 16)
+        sign.show_state(state, f"{full_name(key)}: {verdict}", token="text")  # type: ignore[arg-type]
+        body.addWidget(sign)
+        body.addWidget(Text(theme, change_words(change), 14, REGULAR, "text2", wrap=True))

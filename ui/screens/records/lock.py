@@ -28,7 +28,7 @@ from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.screens.records.cards import LockCard
-from carpus.ui.screens.settings.therapist_store import TherapistController
+from carpus.ui.screens.settings.therapists import TherapistController
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.words.fault_words import fault_words
 

@@ -18,9 +18,8 @@ from carpus.ui.kit.layouts import column_layout
 from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.screens.settings.retest_dialog import RetestDialog
-from carpus.ui.screens.settings.screen import SettingsPage, SettingsScreen
+from carpus.ui.screens.settings.screen import Preferences, SettingsPage, SettingsScreen
 from carpus.ui.shell.flow import Flow, ScreenContext
-from carpus.ui.shell.view_models import Preferences
 
 ReadResultsFunction = Callable[[Sequence[Path], Callable[[CarpusFault], object]], list[tuple[Path, SessionResults]]]
 """Reads sessions of files and folders, and reports those that cannot be read."""

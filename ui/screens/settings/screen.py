@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
@@ -11,19 +11,44 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QFileDialog, QStackedWidg
 from carpus.core.measures.change_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.model.phrase import LANGUAGES
 from carpus.core.model.rounding import format_rounded
+from carpus.core.pipeline.live_values import StartMode
 from carpus.core.platform.version import __version__
+from carpus.core.session.values import AngleOrder
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card
 from carpus.ui.kit.field import ChoiceRow, PageIndex
 from carpus.ui.kit.forms import Field, Form
-from carpus.ui.kit.layouts import Part, ScrollArea, ScrolledColumn, column_layout, fill, row_layout
-from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.kit.icons import State
+from carpus.ui.kit.layouts import STRETCH, Part, ScrollArea, ScrolledColumn, column_layout, fill, row_layout
+from carpus.ui.kit.text import REGULAR, SEMIBOLD, Icon, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 from carpus.ui.screens.settings.limits_card import limits_card
-from carpus.ui.shell.view_models import Preferences
 from carpus.ui.words import terms
 
 SettingsPage = Literal["camera", "measuring", "report", "safety", "looks", "research", "about"]
+
+ThemeChoice = Literal["light", "dark", "system"]
+
+
+@dataclass(frozen=True, slots=True)
+class Preferences:
+    """Choices of the settings screen.
+
+    ``angle_order`` is zyx or isb, ``stream`` sends live values to other programs.
+    """
+
+    theme: ThemeChoice = "system"
+    text_scale: float = 1.0
+    data_folder: str = ""
+    angle_order: AngleOrder = "zyx"
+    stream: bool = False
+    patient_sound: bool = False
+    """Whether the patient's view beeps at the goal."""
+    language: str = "system"
+    """Code of :data:`carpus.ui.kit.language.LANGUAGES`, or ``system``."""
+    research: bool = False
+    """Whether options for research are shown."""
+    start: StartMode = "key"
 
 
 class SettingsScreen(QWidget):
@@ -251,3 +276,41 @@ class SettingsScreen(QWidget):
         if path:
             self.folder_text.setText(path)
             self._apply_preferences(replace(self.preferences, data_folder=path))
+
+
+class CameraCard(Card):
+    """Status of the camera, with buttons to check and calibrate it."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 24)
+        self._theme = theme
+        words = self.tr(
+            "A printed board calibrates the camera. A printed card checks in 30 seconds whether the camera is still "
+            "within tolerance."
+        )
+        self.add_heading(self.tr("Camera"), words)
+        self._row = row_layout(gap=10)
+        self._sign = Icon(theme, "none")
+        self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)
+        fill(self._row, self._sign, (self._state, 1))
+        self.body.addLayout(self._row)
+        buttons = row_layout(gap=12)
+        self.check_button = Button(theme, self.tr("Chec&k card…"), height_px=40)
+        self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"), height_px=40)
+        fill(buttons, self.check_button, self.calibrate_button, STRETCH)
+        self.body.addLayout(buttons)
+
+    def show_status(self, state: State, words: str) -> None:
+        sign = Icon(self._theme, state)
+        self._row.replaceWidget(self._sign, sign)
+        self._sign.hide()
+        self._sign.deleteLater()
+        self._sign = sign
+        self._state.setText(words)
+
+    def show_demo(self) -> None:
+        """Show that a simulated camera needs no calibration."""
+        for button in (self.check_button, self.calibrate_button):
+            button.hide()
+        self._sign.hide()  # an empty sign would set the words in
+        self._state.setText(self.tr("In the demo the camera is simulated. It needs no calibration."))
