@@ -8508,6 +8508,10 @@ von oben</translation>
         <translation>{name}: Messort</translation>
     </message>
     <message>
+        <source>unanswered questions {numbers}</source>
+        <translation>unbeantwortete Fragen {numbers}</translation>
+    </message>
+    <message>
         <source>{side} {value}</source>
         <translation>{side} {value}</translation>
     </message>

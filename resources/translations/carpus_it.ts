@@ -8508,6 +8508,10 @@ dall’alto</translation>
         <translation>{name}: sede della misurazione</translation>
     </message>
     <message>
+        <source>unanswered questions {numbers}</source>
+        <translation>domande senza risposta {numbers}</translation>
+    </message>
+    <message>
         <source>{side} {value}</source>
         <translation>{side} {value}</translation>
     </message>

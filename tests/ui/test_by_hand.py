@@ -166,6 +166,12 @@ def test_finger_grid_typed_in_one_go_totals_follow_and_carpus_values_are_not_sav
     assert "Ring finger" in screen.status_text.text()
     assert not screen.save_button.isEnabled()
     press(screen, Qt.Key.Key_Tab)
+    grid.setCurrentCell(1, 5)
+    QTest.keyClicks(grid, "9")
+    assert cells["DIP2_FLEXION", "active"].typed_text == "9"
+    press(screen, Qt.Key.Key_Escape)
+    QApplication.processEvents()
+    assert cells["DIP2_FLEXION", "active"].typed_text == "55", "Esc restores what was there"
     grid.setCurrentCell(3, 0)
     press(screen, Qt.Key.Key_Delete)
     with qtbot.waitSignal(screen.save_requested) as caught:
@@ -210,6 +216,8 @@ def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
     answers.setText("4 4 5 6 7 1 2 3 4 5 6 7 8 9")
     assert screen.form.rows["PRWE"].fields[0][1].is_empty
     assert screen.form.rows["PRWE"].side_text.text() == "14 of 15"
+    assert screen.status_text.text() == "PRWE: unanswered questions 15"
+    assert not screen.save_button.isEnabled(), "no answer that was typed is dropped unsaid"
     answers.setText(answers.text() + " 10")
     with qtbot.waitSignal(screen.save_requested) as caught:
         screen.save_button.click()
@@ -218,9 +226,17 @@ def test_scores_are_proposed_or_worked_out_and_saved_only_when_chosen(
         ManualValue("KAPANDJI", "", seen.side, TODAY, (7.0,)),
     ]
     screen.show_record(ManualRecord("Linden 42", seen.side, (ManualValue("PRWE", "", "", TODAY, (40.0,)),), (), ""))
-    for text in ("4 4", ""):
+    for text, status in (("- " * 15, "unanswered questions 1–15"), ("4 - 4", "unanswered questions 2, 4–15"), ("", "")):
         answers.setText(text)
-        assert not screen.has_unsaved, "answers that are not complete keep the saved score"
+        assert screen.list_unsaved() == [], "answers that are not complete keep the saved score"
+        assert status in screen.status_text.text()
+        assert screen.has_unsaved == bool(text), "the window asks before they are lost"
+    answers.setText("- " * 15)
+    assert screen.form.rows["PRWE"].side_text.text() == "0 of 15"
+    screen.show_record(screen.record, is_refresh=True)
+    assert answers.text(), "typed while other values were saved"
+    screen.show_record(screen.record)
+    assert not answers.text(), "given up"
     seen = replace(seen, when=NOW + timedelta(days=1), is_simulated=False)
     assert propose_kapandji([seen], seen.side, TODAY) is None, "of a day to come"
 

@@ -121,6 +121,7 @@ class _LiveDelegate(QStyledItemDelegate):
             editor.setAlignment(Qt.AlignmentFlag.AlignCenter)
             editor.setStyleSheet("min-height: 0; padding: 0; border-radius: 0;")
             editor.textEdited.connect(lambda _: self.commitData.emit(editor))
+            editor.setProperty("text_before", index.data(Qt.ItemDataRole.EditRole))
         return editor
 
 
@@ -264,9 +265,11 @@ class FingerGrid(QTableWidget):
         return False
 
     def closeEditor(self, editor: QWidget, hint: QAbstractItemDelegate.EndEditHint) -> None:
-        """Move on after Enter and Tab, so that the arrow keys work again."""
+        """Move on after Enter and Tab, so that the arrow keys work again; Esc restores what was there."""
         hints = QAbstractItemDelegate.EndEditHint
         super().closeEditor(editor, hints.NoHint)
+        if hint == hints.RevertModelCache:
+            self.currentItem().setText(editor.property("text_before") or "")
         if hint in (hints.SubmitModelCache, hints.EditNextItem, hints.EditPreviousItem):
             forward = hint != hints.EditPreviousItem
             if not self._step(1 if forward else -1):

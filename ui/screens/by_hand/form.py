@@ -88,6 +88,8 @@ class MeasureRow(QObject):
         self._questionnaire = QUESTIONNAIRES.get(measure.id)
         self.answers_field = QLineEdit()
         self.answers_field.textChanged.connect(lambda _: self._count_answers())
+        self._answers_error = ""
+        """Why the answers typed give no score."""
         self.widgets: list[QWidget] = []
         self.side_text = Text(theme, "", 14, SEMIBOLD)
         self.other_hand_text = Text(theme, "", 14, REGULAR, "text2")
@@ -132,10 +134,16 @@ class MeasureRow(QObject):
         known = math.isfinite(score)
         self.fields[0][1].set_value(round(score, self.measure.decimals) if known else self._value_before)
         self.side_text.setText("")
+        self._answers_error = ""
         if answers is None:
-            self.side_text.setText(self.tr("not a valid answer"))
+            self._answers_error = self.tr("not a valid answer")
+            self.side_text.setText(self._answers_error)
         elif answers and not known:
-            self.side_text.setText(self.tr("{count} of {all}").format(count=len(answers), all=facts.item_count))
+            given = [number for number, answer in enumerate(answers, 1) if math.isfinite(answer)]
+            missing = _format_runs(sorted({*range(1, facts.item_count + 1)}.difference(given)))
+            self._answers_error = self.tr("unanswered questions {numbers}").format(numbers=missing)
+            self.side_text.setText(self.tr("{count} of {all}").format(count=len(given), all=facts.item_count))
+        self.edited.emit()
 
     def _keep_typed_value(self, field: ValueField | KapandjiChoice) -> None:
         """Let answers that are not complete bring back the score typed last, as they do a saved one."""
@@ -160,7 +168,8 @@ class MeasureRow(QObject):
         last = [previous_value(values, key, day) for key in self.keys(side)]
         where = stored[0] or last[0]
         self.location_field.setText(where.location if where else "")
-        self.answers_field.clear()
+        if not self._answers_error:  # while the others were being saved
+            self.answers_field.clear()
         for field in (*fields, self.location_field):
             field.blockSignals(False)
         words = " / ".join(value_words(self.measure, one.value) if one else "–" for one in last)
@@ -194,7 +203,9 @@ class MeasureRow(QObject):
         return found
 
     def list_errors(self) -> list[str]:
-        return [f"{field.accessibleName()}: {field.error}" for _, field in self.fields if field.error]
+        errors = [(field.accessibleName(), field.error) for _, field in self.fields]
+        errors.append((measure_name(self.measure), self._answers_error))
+        return [f"{name}: {error}" for name, error in errors if error]
 
     def list_warnings(self) -> list[str]:
         return [f"{field.accessibleName()}: {field.warning}" for _, field in self.fields if field.warning]
@@ -342,6 +353,10 @@ class ManualForm(QWidget):
             row.show_values(values, side, day, measured.get((name, "active")))
         self.fingers.show_values(values, side, day, measured)
 
+    def clear_answers(self) -> None:
+        for row in self.rows.values():
+            row.answers_field.clear()
+
     def initial_focus(self) -> QWidget:
         return self.input_fields()[0]
 
@@ -366,6 +381,12 @@ def _is_shown_alike(stored: ManualValue, shown: ManualValue) -> bool:
     """Return whether an entry is the stored one, which the form shows with so many digits only."""
     texts = [[numbers.format_significant(value, SHOWN_DIGITS) for value in one.trials] for one in (stored, shown)]
     return texts[0] == texts[1] and stored.location == shown.location
+
+
+def _format_runs(numbers: Sequence[int]) -> str:
+    """Return rising numbers as ``3, 7–11``."""
+    runs = [[one for _, one in run] for _, run in itertools.groupby(enumerate(numbers), lambda pair: pair[1] - pair[0])]
+    return ", ".join(f"{run[0]}–{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs)
 
 
 class KapandjiChoice(Combo):

@@ -160,10 +160,7 @@ class ManualMeasurementsScreen(FittedWidget):
 
     @property
     def has_unsaved(self) -> bool:
-        try:
-            return bool(self.list_unsaved())
-        except ValueError:
-            return True
+        return bool(self.form.list_errors() or self.list_unsaved())
 
     def list_unsaved(self) -> list[ManualValue]:
         """Return all unsaved values of every day and hand.
@@ -202,6 +199,7 @@ class ManualMeasurementsScreen(FittedWidget):
         self._unsaved = {}
         if not is_refresh:
             self._added_measures = set()
+            self.form.clear_answers()
             today = self._today()  # the program may have stood open over night
             self.day_field.setMaximumDate(QDate(today.year, today.month, today.day))
             self._select(record.side, today)
