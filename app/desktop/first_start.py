@@ -202,7 +202,8 @@ class WelcomeController(QObject):
 
     def show_if_first_start(self) -> None:
         """Show the panel unless it was answered or there are patients."""
-        if self._preferences.first_start_answered or self.panel is not None or self._library.store.is_server_away:
+        is_answered = self._preferences.settings.first_start.answered
+        if is_answered or self.panel is not None or self._library.store.is_server_away:
             return
         if self._library.patients.search(limit=1):
             return

@@ -118,11 +118,6 @@ class PreferencesController(QObject):
         self.save(report=replace(self.settings.report, therapist=initials))
         self._share_settings()
 
-    @property
-    def first_start_answered(self) -> bool:
-        """True if the offer of the first start was answered."""
-        return self.settings.first_start.answered
-
     def _save_changes(self, before: Settings) -> None:
         if self._is_demo:
             return

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from importlib import import_module
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
@@ -34,10 +35,16 @@ SLOW_CORE_MODULES = (
     "carpus.core.results.side_by_side",
 )
 """Slow imports of the screens without Qt, which any thread may load."""
-PLACES = (
-    "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "by_hand",
-    "comparison", "board", "card", "help", "correct",
-)  # fmt: skip
+PLACES = {
+    "patients": "patients.flow:PatientsFlow", "exercise": "setup.flow:ExerciseFlow",
+    "camera": "setup.flow:CameraFlow", "markers": "markers.flow:MarkersFlow", "live": "live.flow:LiveFlow",
+    "sessions": "sessions.flow:SessionsFlow", "review": "review.flow:ReviewFlow",
+    "progress": "progress.flow:ProgressFlow", "report": "report.flow:ReportFlow",
+    "by_hand": "by_hand.flow:ManualMeasurementsFlow", "comparison": "comparison.flow:ComparisonFlow",
+    "board": "camera_calibration.flow:CameraCalibrationFlow", "card": "check_card.flow:CheckCardFlow",
+    "help": "help.flow:HelpFlow", "correct": "correct.flow:CorrectionFlow",
+}  # fmt: skip
+"""Each screen's flow below ``carpus.ui.screens``; :class:`Screens` has their types."""
 
 
 class Screens(QObject):
@@ -71,68 +78,8 @@ class Screens(QObject):
 
 def load_flow_class(place: str) -> Callable[[ScreenContext], Flow]:
     """Import a screen and return the class of its flow."""
-    match place:
-        case "patients":
-            from carpus.ui.screens.patients.flow import PatientsFlow
-
-            return PatientsFlow
-        case "exercise":
-            from carpus.ui.screens.setup.flow import ExerciseFlow
-
-            return ExerciseFlow
-        case "camera":
-            from carpus.ui.screens.setup.flow import CameraFlow
-
-            return CameraFlow
-        case "markers":
-            from carpus.ui.screens.markers.flow import MarkersFlow
-
-            return MarkersFlow
-        case "live":
-            from carpus.ui.screens.live.flow import LiveFlow
-
-            return LiveFlow
-        case "sessions":
-            from carpus.ui.screens.sessions.flow import SessionsFlow
-
-            return SessionsFlow
-        case "review":
-            from carpus.ui.screens.review.flow import ReviewFlow
-
-            return ReviewFlow
-        case "progress":
-            from carpus.ui.screens.progress.flow import ProgressFlow
-
-            return ProgressFlow
-        case "report":
-            from carpus.ui.screens.report.flow import ReportFlow
-
-            return ReportFlow
-        case "by_hand":
-            from carpus.ui.screens.by_hand.flow import ManualMeasurementsFlow
-
-            return ManualMeasurementsFlow
-        case "comparison":
-            from carpus.ui.screens.comparison.flow import ComparisonFlow
-
-            return ComparisonFlow
-        case "board":
-            from carpus.ui.screens.camera_calibration.flow import CameraCalibrationFlow
-
-            return CameraCalibrationFlow
-        case "card":
-            from carpus.ui.screens.check_card.flow import CheckCardFlow
-
-            return CheckCardFlow
-        case "help":
-            from carpus.ui.screens.help.flow import HelpFlow
-
-            return HelpFlow
-        case "correct":
-            from carpus.ui.screens.correct.flow import CorrectionFlow
-
-            return CorrectionFlow
-    raise KeyError(place)
+    found: Callable[[ScreenContext], Flow] = resolve_name(f"carpus.ui.screens.{PLACES[place]}")
+    return found
 
 
 def load_core() -> Iterator[str]:
@@ -150,6 +97,5 @@ def load_screens() -> Iterator[str]:
     for place in PLACES:
         load_flow_class(place)
         yield place
-    for module in ("carpus.ui.screens.settings.flow",):
-        import_module(module)
-        yield module
+    import_module("carpus.ui.screens.settings.flow")
+    yield "settings"

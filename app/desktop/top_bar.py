@@ -105,6 +105,7 @@ class TopBarController(QObject):
     def show_camera(self) -> None:
         """Show the state of the camera; on the live screen :meth:`show_counters` does."""
         camera, now, place = self._shell.top_bar.camera, self._current, self._navigator.screen_name
+        kind = now.source_choice.kind
         if place == "live":
             return
         if place == "camera":
@@ -112,10 +113,10 @@ class TopBarController(QObject):
         elif place == "review" and (reviewed := self._review().reviewed) is not None:
             saved_at = reviewed.end_time
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{saved_at:%H:%M}"))
-        elif now.source_kind == "file" and now.source is not None:
+        elif kind == "file" and now.source is not None:
             name = Path(now.source_choice.path).name
             camera.show_state("good", self.tr("Recording {name}").format(name=shorten(name, MAX_NAME_LENGTH)))
-        elif self._is_demo or (now.source_kind == "practice" and (now.source is not None or place in SETUP_STEPS)):
+        elif self._is_demo or (kind == "practice" and (now.source is not None or place in SETUP_STEPS)):
             camera.show_state("good", self.tr("Simulated camera"))
         elif self._camera.is_connected:
             camera.show_state("good", self.tr("Camera ready"))
@@ -147,7 +148,7 @@ class TopBarController(QObject):
 
     def show_counters(self, counters: LiveCounters) -> None:
         """Show a low frame rate, dropped frames, and the recording time left on the disk."""
-        least = 12 if self._current.source_kind == "practice" else 25  # 15 are drawn, as few as are enough
+        least = 12 if self._current.source_choice.kind == "practice" else 25  # 15 are drawn, as few as are enough
         few = counters.fps < least
         words = self.tr("{count} fps (below {least})") if few else self.tr("{count} fps")
         words = words.format(count=round_half_away(counters.fps), least=least)

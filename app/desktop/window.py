@@ -89,7 +89,7 @@ class Desktop:
     """Signals of the system, disconnected at the end."""
     must_reopen: bool = False
     """True if a new window with the present settings must be opened after this one."""
-    _closed: bool = False
+    is_closed: bool = False
     _preloading: Background = field(default_factory=Background)
 
     def show(self, *, is_reopened: bool = False, patient_id: str = "") -> None:
@@ -97,7 +97,7 @@ class Desktop:
         # The newest session is on top, but for simulated ones, which count nowhere.
         demo_patient = self.library.session_list.last_patient_id() if self.controller.is_demo else ""
         self.controller.patients.open(patient_id or demo_patient)
-        restore_window(self.shell, RecentLocations(self.library.folder).window_geometry())
+        restore_window(self.shell, RecentLocations(self.library.folder).load("window"))
         self.shell.create()  # what hides the names must be there before anything is seen
         if is_reopened:
             self.data_protection.locking.refresh()
@@ -117,14 +117,14 @@ class Desktop:
 
         def work() -> None:
             for _ in load_core():
-                if self._closed:
+                if self.is_closed:
                     break
 
         self._preloading.run(work, lambda _: self._preload_next(load_screens()), self.controller.messages.show_fault)
 
     def _preload_next(self, loaded: Iterator[str]) -> None:
         """Import the next module when the window is idle again."""
-        if self._closed:
+        if self.is_closed:
             return
         if next(loaded, ""):
             QTimer.singleShot(0, lambda: self._preload_next(loaded))
@@ -162,14 +162,10 @@ class Desktop:
         else:
             show(path)
 
-    @property
-    def is_closed(self) -> bool:
-        return self._closed
-
     def close(self) -> None:
         """End everything; may be called twice."""
-        if not self._closed:
-            self._closed = True
+        if not self.is_closed:
+            self.is_closed = True
             for connection in self.system_connections:
                 QObject.disconnect(connection)
             self._preloading.join()
@@ -178,7 +174,7 @@ class Desktop:
             self.practice_system.stop()
             self.data_protection.locking.shut_down()
             self.data_protection.backing_up.shut_down()
-            RecentLocations(self.library.folder).save_window_geometry(encode_geometry(self.shell))
+            RecentLocations(self.library.folder).save("window", encode_geometry(self.shell))
             self.controller.close()
             self.shell.hide()
             self.library.close()

@@ -20,7 +20,7 @@ def test_recent_locations_are_kept_per_kind_until_missing(tmp_path: Path, data: 
     places = RecentLocations(data)
     for kind in ("reports", "recordings"):
         (tmp_path / kind).mkdir()
-        places.save_folder(kind, str(tmp_path / kind))  # type: ignore[arg-type]
+        places.save(kind, str(tmp_path / kind))  # type: ignore[arg-type]
     again = RecentLocations(data)
     assert again.folder("reports") == str(tmp_path / "reports")
     assert again.folder("recordings") == str(tmp_path / "recordings")

@@ -199,17 +199,17 @@ def test_lock_by_key_and_timeout_never_during_recording(
     locking, journey = desktop.data_protection.locking, desktop.controller
     locking.lock_screen.pin_entered.emit("4821")
     assert not locking.is_locked
-    assert 0 < locking.idle_timer.remaining_ms <= 11 * 60_000  # a coarse clock
+    assert 0 < locking.idle_timer.remainingTime() <= 11 * 60_000  # a coarse clock
     journey.sessions.open(linden(desktop))
     journey.sessions.screen.rename_button.click()
     assert journey.sessions.screen.exercise_dialog.isVisible()
     monkeypatch.setattr(type(journey.live.screen.recording), "state", "recording")
     locking.lock_or_set_pin()
-    locking.idle_timer.timed_out.emit()
+    locking.idle_timer.timeout.emit()
     assert not locking.is_locked
-    assert 0 < locking.idle_timer.remaining_ms <= 66_000, "it waits for the recording to end"
+    assert 0 < locking.idle_timer.remainingTime() <= 66_000, "it waits for the recording to end"
     monkeypatch.setattr(type(journey.live.screen.recording), "state", "off")
-    locking.idle_timer.timed_out.emit()
+    locking.idle_timer.timeout.emit()
     assert locking.is_locked
     assert "after 10 minutes" in locking.lock_screen.reason_text.text()
     assert not any("Linden" in word for word in visible_words(desktop.shell))

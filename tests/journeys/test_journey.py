@@ -238,7 +238,7 @@ def test_full_disk_prevents_recording_and_closing_keeps_storing(
     assert "20 MB free" in card.details.full_text()
     assert journey.live.screen.recording.state == "off"
     assert list(folder.rglob("*.h5*")) == []
-    click(qtbot, card.answer_buttons[-1])
+    click(qtbot, card.answers[-1][0])
     caplog.clear()
     kept: list[object] = []
     real = SmoothingProcess.join
@@ -313,13 +313,13 @@ def test_question_during_recording_loses_no_frame(
     feed.handle_notice(CameraReturned("Xtion", "3 s"))
     wait_until(qtbot, lambda: not card().isVisible())
     recording.toggle()
-    click(qtbot, card().answer_buttons[0])  # "Stop and review"
+    click(qtbot, card().answers[0][0])  # "Stop and review"
     assert journey.place == "live"
     journey.messages.show_fault(DiskFull("x"))
     first = get_reviewed_file(qtbot, desktop)
     assert card().isVisible(), "a message moves with the screen"
     assert "disk" in card().happened.text()
-    click(qtbot, card().answer_buttons[-1])
+    click(qtbot, card().answers[-1][0])
     assert not journey.messages.is_busy
     with h5py.File(first) as file:
         assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
@@ -334,7 +334,7 @@ def test_question_during_recording_loses_no_frame(
     wait_for_place(qtbot, journey, "live")
     record()
     shell.close()
-    click(qtbot, card().answer_buttons[0])  # "Stop, save and close"
+    click(qtbot, card().answers[0][0])  # "Stop, save and close"
     assert not shell.isVisible()
     again = open_desktop()
     entries = again.library.sessions(PRACTICE_PATIENT)

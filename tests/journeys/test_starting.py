@@ -163,7 +163,7 @@ def test_opened_file_of_an_unknown_patient_is_shown_after_the_pin(
     opened.on_second_instance(other)
     assert journey.place == "patients"
     assert journey.messages.is_busy, "what is no session is told"
-    journey.messages.dialog.answer_buttons[-1].click()
+    journey.messages.dialog.answers[-1][0].click()
     locking = opened.data_protection.locking
     locking.pin.set("4711")
     locking.lock_or_set_pin()
@@ -222,5 +222,5 @@ def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: Qt
     journey.messages.show_fault(DiskFull("x"))
     press_escape()
     assert journey.messages.dialog.isVisible()
-    journey.messages.dialog.answer_buttons[-1].click()
+    journey.messages.dialog.answers[-1][0].click()
     assert not journey.messages.is_busy

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -69,4 +70,6 @@ def make_context(
         "is_demo": False,
         "opener": SimpleNamespace(close_source=lambda: None),
     }
-    return cast("ScreenContext", SimpleNamespace(**(usual | given)))
+    context = cast("ScreenContext", SimpleNamespace(**(usual | given)))
+    context.run = partial(ScreenContext.run, context)  # type: ignore[method-assign]
+    return context

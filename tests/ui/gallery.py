@@ -467,7 +467,7 @@ class Gallery(GalleryWindow):
         answers = [Answer("Check camera", lambda: None, "C"), Answer("Stop and review", screen.recording.stop, "Space")]
         detail, safe_detail = "Recording paused automatically at 01:24.", "All 1 min 24 s and 3 full repetitions."
         card.show_words(LOST, answers, icon="unplug", detail=detail, safe_detail=safe_detail)
-        card.set_wait_text("Waiting for the camera … 7 s")
+        card.wait_text.setText("Waiting for the camera … 7 s")
 
     patient_view = _patient_view("WRIST_FE", GuideScene("out", 1, 42.0, 60.0, done=5, asked=10))
     patient_view_goal = _patient_view(

@@ -38,11 +38,17 @@ def is_pseudo(text: str) -> bool:
     return "[" in text or "]" in text or any(letter in text for letter in "áéíóúçñšž")
 
 
+def register(code: str, lookup: language.TextLookup, numbers: QLocale) -> None:
+    """Add a language to those of the window."""
+    translator = language._translator()
+    translator.lookups[code], translator.locales[code] = lookup, numbers
+
+
 @contextmanager
 def spoken(code: str = CODE) -> Iterator[None]:
     """The window speaks it meanwhile, with German numbers and dates."""
     if code == CODE:
-        language.register_language(CODE, lambda context, text: pseudo(text), QLocale("de_DE"))
+        register(CODE, lambda context, text: pseudo(text), QLocale("de_DE"))
     before = QLocale()
     language.set_window_language(code)
     try:

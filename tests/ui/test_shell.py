@@ -88,14 +88,14 @@ def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, th
     for part in (WORDS.data_safety, WORDS.remedy):
         assert part in card.accessibleName()
     assert card.card.edge == "bad"
-    assert card.answer_buttons[-1].hasFocus()
+    assert card.answers[-1][0].hasFocus()
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert card.isVisible()
-    qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_C)
+    qtbot.keyClick(card.answers[-1][0], Qt.Key.Key_C)
     assert done == ["check"]
     assert not card.isVisible()
     card.show_words(WORDS, [Answer("Stop", lambda: done.append("stop"), "Space")])
-    qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_Space)
+    qtbot.keyClick(card.answers[-1][0], Qt.Key.Key_Space)
     assert done == ["check", "stop"]
     card.show_words(WORDS, [Answer("Continue", lambda: None)], is_alarm=False)
     assert card.card.edge == "line"  # good news and questions look like no alarm
@@ -105,7 +105,7 @@ def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, th
         Answer("Continue", lambda: done.append("on")),
     ]
     card.show_words(WORDS, answers)
-    qtbot.keyClick(card.answer_buttons[-1], Qt.Key.Key_Escape)
+    qtbot.keyClick(card.answers[-1][0], Qt.Key.Key_Escape)
     assert done[-1] == "on", "Esc gives the answer that loses nothing"
     assert not card.isVisible()
 

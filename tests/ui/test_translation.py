@@ -20,6 +20,7 @@ from carpus.ui.kit.numbers import format_day_month
 from carpus.ui.kit.translate import tr
 from installer import translations
 from tests.sources import ROOT, SOURCES, modules, parse_file
+from tests.ui.pseudo import register
 
 UI = modules("ui")
 
@@ -67,7 +68,7 @@ def extracted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_page_in_another_language_is_painted_in_thread_own_while_window_continues_in_its_own(qtbot: QtBot) -> None:
-    language.register_language("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
+    register("xx", lambda context, text: f"¡{text}" if text == "Cancel" else None, QLocale("de_CH"))
     background, said = Background(), []
     go_on = threading.Event()
 

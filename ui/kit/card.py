@@ -1,4 +1,4 @@
-"""Cards and surfaces, separators, and the row of key caps."""
+"""Cards and surfaces, separators, progress bars, and the row of key caps."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette, QPen, QShowEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QProgressBar, QSizePolicy, QWidget
 
 from carpus.ui.kit.keys import key_name
 from carpus.ui.kit.layouts import FittedWidget, column_layout
@@ -89,6 +89,13 @@ class Separator(ColorFill):
             self.setFixedWidth(theme.line_px)
         else:
             self.setFixedHeight(theme.line_px)
+
+
+def progress_bar(name: str) -> QProgressBar:
+    """Return a thin progress bar; the application's style sheet paints it."""
+    bar = QProgressBar(textVisible=False)
+    bar.setAccessibleName(name)
+    return bar
 
 
 SPACE_PX, BETWEEN_PX = 7, 16

@@ -69,13 +69,8 @@ class Dialog(QWidget):
         down.addLayout(across)
         down.addStretch(1 if is_low else 3)
         host.installEventFilter(self)
-        theme.changed.connect(self._apply_theme)
-        self._apply_theme()
+        theme.changed.connect(self._fit_card)
         self.hide()
-
-    def _apply_theme(self) -> None:
-        self._fit_card()
-        self.update()
 
     def _fit_card(self) -> None:
         self.card.setFixedWidth(min(self._theme.px(self._width_px), max(require_parent(self).width() - 48, 200)))

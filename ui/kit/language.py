@@ -80,8 +80,8 @@ def set_window_language(code: str) -> None:
 
     Call it in the window's thread once there is an application.
     """
-    chosen = code if code in available_languages() else system_language()
     translator = _translator()
+    chosen = code if code in translator.locales else system_language()
     _load_language(translator, chosen)
     translator.window_language = chosen
     QLocale.setDefault(translator.locales[chosen])
@@ -124,17 +124,6 @@ def system_language() -> str:
         if code in LANGUAGES:
             return code
     return "en"
-
-
-def available_languages() -> tuple[str, ...]:
-    """Return the codes of all languages."""
-    return tuple(_TRANSLATOR[0].locales) if _TRANSLATOR else tuple(LANGUAGES)
-
-
-def register_language(code: str, lookup: TextLookup, number_locale: QLocale) -> None:
-    """Add a language with its text ``lookup`` and its locale for numbers and dates."""
-    translator = _translator()
-    translator.lookups[code], translator.locales[code] = lookup, number_locale
 
 
 def _translator() -> _Translator:

@@ -52,6 +52,8 @@ QScrollBar::handle:vertical {{ background: {border}; border-radius: 4px; min-hei
 QScrollBar:horizontal {{ height: 0; }}
 QScrollBar::add-line, QScrollBar::sub-line {{ width: 0; height: 0; }}
 QScrollBar::add-page, QScrollBar::sub-page {{ background: transparent; }}
+QProgressBar {{ background: {sunken}; border: 0; border-radius: 4px; min-height: 8px; max-height: 8px; }}
+QProgressBar::chunk {{ background: {accent}; border-radius: 4px; }}
 QToolTip {{ background: {text}; color: {surface}; border: 0; padding: 6px 8px; }}
 QMenu {{ background: {surface}; color: {text}; border: 1px solid {border}; padding: 4px; }}
 QMenu::item {{ padding: 8px 16px; border-radius: 4px; }}
@@ -80,7 +82,7 @@ Surface[edge="{name}"] {{ border: 1px solid {value}; }}
 Surface[under="{name}"] {{ border-bottom: 1px solid {value}; }}
 """
 
-_SHEET_TOKENS = ("surface", "text", "text2", "border", "accent", "on_accent", "soft", "canvas", "line")
+_SHEET_TOKENS = ("surface", "text", "text2", "border", "accent", "on_accent", "soft", "sunken", "canvas", "line")
 
 
 def apply_style(application: QApplication, theme: Theme) -> None:

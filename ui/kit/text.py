@@ -143,13 +143,6 @@ class ElidedText(Text):
     def visible_text(self) -> str:
         return self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
 
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-        painter.drawText(
-            self.rect(), int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self.visible_text
-        )
-
 
 def heading(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
     """Return the 28 px title of a page."""

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QColor, QFont
 
 from carpus.ui.kit.fonts import font
+
+if TYPE_CHECKING:  # a page that is painted alone loads no widgets
+    from PySide6.QtWidgets import QWidget
 
 ThemeName = Literal["light", "dark"]
 TEXT_SCALES = (1.0, 1.25, 1.5)
@@ -138,15 +141,7 @@ class Theme(QObject):
         return round(size * self.text_scale)
 
 
-class HasPixelSize(Protocol):
-    """Anything with a width and height in pixels."""
-
-    def width(self) -> int: ...
-
-    def height(self) -> int: ...
-
-
-def is_tight(screen: HasPixelSize, theme: Theme) -> bool:
+def is_tight(screen: QWidget, theme: Theme) -> bool:
     """Return whether the text is too large for everything to fit on the screen."""
     width, height = MIN_ROOMY_SIZE_PX
     return screen.width() < width * theme.text_scale or screen.height() < height * theme.text_scale

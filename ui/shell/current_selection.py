@@ -64,10 +64,6 @@ class CurrentSelection:
         self.session_id = ""
 
     @property
-    def source_kind(self) -> SourceKind:
-        return self.source_choice.kind
-
-    @property
     def is_practice(self) -> bool:
         return self.patient is not None and self.patient.patient_id == PRACTICE_PATIENT
 

@@ -54,13 +54,22 @@ class ScreenContext:
     """As chosen now."""
     today: Callable[[], date]
     """Returns the current day: the program may stay open for days."""
-    """Of Carpus, for what is written."""
     is_demo: bool = False
     patient_sound: bool = False
     """Whether the patient's view beeps at the goal."""
     keep_pictures: bool = False
     """Whether video is saved by default, which takes ``mb_per_minute``."""
     mb_per_minute: float = math.nan
+
+    def run(
+        self,
+        owner: QObject,
+        work: Callable[[], T],
+        on_done: Callable[[T], None] = lambda _: None,
+        on_failed: Callable[[Exception], None] | None = None,
+    ) -> None:
+        """Run ``work`` in the background while ``owner`` exists; show its fault unless ``on_failed`` is given."""
+        self.background.run(work, on_done, on_failed or self.messages.show_fault, owner)
 
 
 class Flow(QObject):
@@ -154,7 +163,7 @@ class Flow(QObject):
         on_failed: Callable[[Exception], None] | None = None,
     ) -> None:
         """Run ``work`` in the background; show its fault unless ``on_failed`` is given."""
-        self.context.background.run(work, on_done, on_failed or self.context.messages.show_fault, self)
+        self.context.run(self, work, on_done, on_failed)
 
     def register_exports(self, paths: Sequence[Path | str], sessions: Sequence[str]) -> None:
         """Note files made from sessions, so that they are listed when these are deleted."""

@@ -46,7 +46,7 @@ class MainWindow(QWidget):
         self.banner = Banner(theme)
         self.screen_stack = QStackedWidget()
         column_layout(self.top_bar, self.banner, (self.screen_stack, 1), gap=0, margins=(0, 0, 0, 0), parent=self)
-        self.focus_ring = FocusRing(self)
+        FocusRing(self)
         self.setWindowTitle("Carpus")
         self.resize(*DEFAULT_SIZE_PX)
         self.setMinimumSize(*MIN_SIZE_PX)

@@ -88,28 +88,27 @@ class Messages(QObject):
         self.fault_shown.emit(fault)
         icon = "unplug" if isinstance(fault, CameraLost) else ""
         answers = answers or (Answer(self.tr("Continue"), lambda: None),)
-        message = _Message(words, tuple(answers), icon, detail, safe_detail)
-        known = [self._current, *self._queue]
-        if any(other is not None and other.words == message.words for other in known):
-            return
-        self._queue.append(message)
-        if self._current is None:
-            self._show_next()
+        self._enqueue(_Message(words, tuple(answers), icon, detail, safe_detail))
 
     def show_question(
         self, question: MessageText, answers: Sequence[Answer], *, icon: str = "", detail: str = ""
     ) -> None:
         """Ask the user a question, unless it is already open or queued."""
-        if any(other is not None and other.words == question for other in (self._current, *self._queue)):
-            return
-        self._queue.append(_Message(question, tuple(answers), icon, detail, "", is_alarm=False))
-        if self._current is None:
-            self._show_next()
+        self._enqueue(_Message(question, tuple(answers), icon, detail, "", is_alarm=False))
+
+    def _enqueue(self, message: _Message) -> None:
+        if not any(other is not None and other.words == message.words for other in (self._current, *self._queue)):
+            self._queue.append(message)
+            if self._current is None:
+                self._show_next()
 
     def withdraw_question(self, question: MessageText) -> None:
         """Close or dequeue a question that no longer applies."""
-        self._queue = [message for message in self._queue if message.words != question]
-        if self._current is not None and self._current.words == question:
+        self._withdraw(lambda message: message.words == question)
+
+    def _withdraw(self, is_settled: Callable[[_Message], bool]) -> None:
+        self._queue = [message for message in self._queue if not is_settled(message)]
+        if self._current is not None and is_settled(self._current):
             self.dialog.close_dialog()
 
     def show_camera_lost(self, fault: Exception, answers: Sequence[Answer], detail: str, safe_detail: str) -> None:
@@ -121,9 +120,7 @@ class Messages(QObject):
 
     def close_camera_lost(self) -> None:
         self._clock.stop()
-        self._queue = [message for message in self._queue if message.icon != "unplug"]
-        if self._current is not None and self._current.icon == "unplug":
-            self.dialog.close_dialog()
+        self._withdraw(lambda message: message.icon == "unplug")
 
     def show_notice(
         self,
@@ -180,7 +177,7 @@ class Messages(QObject):
     def _update_wait_time(self) -> None:
         seconds = round_half_away(time.monotonic() - self._lost_since_s)
         if self._current is not None and self._current.icon == "unplug":
-            self.dialog.set_wait_text(self.tr("Waiting for the camera … {seconds} s").format(seconds=seconds))
+            self.dialog.wait_text.setText(self.tr("Waiting for the camera … {seconds} s").format(seconds=seconds))
 
 
 class NoticeStrip(Card):
@@ -299,7 +296,7 @@ class MessageDialog(Dialog):
             Icon(theme, name, 26, (44, 40), alignment=0.5) for name in ("unplug", "good", "chevron-right")
         )
         self._buttons = row_layout(gap=12)
-        self._answers: list[tuple[Button, Answer]] = []
+        self.answers: list[tuple[Button, Answer]] = []
         self._is_alarm = True
         body = self.card.body
         body.setContentsMargins(32, 24, 32, 24)
@@ -342,35 +339,28 @@ class MessageDialog(Dialog):
         if answers and answers[-1].is_risky:
             raise ValueError(f"what Enter answers loses nothing: {answers[-1].text}")
         clear_layout(self._buttons)
-        self._answers, self._is_alarm = [], is_alarm
+        self.answers, self._is_alarm = [], is_alarm
         for number, answer in enumerate(answers):
             primary = number == len(answers) - 1
             button = Button(self._theme, answer.text, "primary" if primary else "plain", hint=answer.key, height_px=48)
             button.clicked.connect(lambda _=False, answer=answer: self._choose_answer(answer))
             self._buttons.addWidget(button)
-            self._answers.append((button, answer))
-        if self._answers:
-            self.set_default(self._answers[-1][0])
+            self.answers.append((button, answer))
+        if self.answers:
+            self.set_default(self.answers[-1][0])
         self.open()
-
-    def set_wait_text(self, words: str) -> None:
-        self.wait_text.setText(words)
-
-    @property
-    def answer_buttons(self) -> list[Button]:
-        return [button for button, _ in self._answers]
 
     def _choose_answer(self, answer: Answer) -> None:
         self.close_dialog()
         answer.action()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        loses_nothing = not self._is_alarm or any(answer.is_risky for _, answer in self._answers)
-        if event.key() == Qt.Key.Key_Escape and self._answers and loses_nothing:
-            self._answers[-1][0].click()
+        loses_nothing = not self._is_alarm or any(answer.is_risky for _, answer in self.answers)
+        if event.key() == Qt.Key.Key_Escape and self.answers and loses_nothing:
+            self.answers[-1][0].click()
             return
         pressed = QKeySequence(event.key())
-        for button, answer in self._answers:
+        for button, answer in self.answers:
             if answer.key and pressed.matches(QKeySequence(answer.key)) == QKeySequence.SequenceMatch.ExactMatch:
                 button.click()
                 return

@@ -17,20 +17,17 @@ FolderKind = Literal["recordings", "reports", "exports"]
 
 
 class RecentLocations:
-    """Last folder for each kind of file, kept for this computer; failures are ignored."""
+    """Last folder for each kind of file, and the window's geometry, kept for this computer; failures are ignored."""
 
     def __init__(self, data_folder: Path) -> None:
         self._data_folder = data_folder
 
     def folder(self, kind: FolderKind) -> str:
         """Return the last folder if it exists, else the documents folder, else home."""
-        for candidate in (self._load(kind), documents_folder()):
+        for candidate in (self.load(kind), documents_folder()):
             if candidate and Path(candidate).is_dir():
                 return candidate
         return str(Path.home())
-
-    def save_folder(self, kind: FolderKind, folder: str) -> None:
-        self._save(kind, folder)
 
     def choose_save_path(self, window: QWidget, kind: FolderKind, name: str, title: str, kinds: str) -> Path | None:
         """Ask for a file to write and remember its folder; None if cancelled.
@@ -40,21 +37,15 @@ class RecentLocations:
         path, _ = QFileDialog.getSaveFileName(window, title, str(Path(self.folder(kind)) / name), kinds)
         if not path:
             return None
-        self.save_folder(kind, str(Path(path).parent))
+        self.save(kind, str(Path(path).parent))
         return Path(path)
 
-    def window_geometry(self) -> str:
-        """Return the saved geometry, empty before the first time."""
-        return self._load("window")
-
-    def save_window_geometry(self, geometry: str) -> None:
-        self._save("window", geometry)
-
-    def _save(self, name: str, value: str) -> None:
+    def save(self, name: FolderKind | Literal["window"], value: str) -> None:
         with suppress(CarpusFault):  # a full or read-only disk tells elsewhere
             save_place(self._data_folder, name, value)
 
-    def _load(self, name: str) -> str:
+    def load(self, name: FolderKind | Literal["window"]) -> str:
+        """Return what was saved; empty before the first time."""
         with suppress(CarpusFault):
             return read_last_place(self._data_folder, name)
         return ""

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QWidget
+from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 
 from carpus.ui.kit import numbers
 from carpus.ui.kit.button import Button, icon_button
 from carpus.ui.kit.card import Separator, Surface
 from carpus.ui.kit.fonts import font
 from carpus.ui.kit.icons import paint_state
-from carpus.ui.kit.layouts import column_layout, row_layout
+from carpus.ui.kit.layouts import STRETCH, column_layout, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text, plain_tooltip
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 
@@ -56,11 +56,15 @@ class TopBar(Surface):
         self._navigation = row_layout(gap=4)
         self.navigation_buttons: list[NavigationButton] = []
         self._left, self._right = QWidget(), QWidget()
-        left = _row(self._left, 8, self.brand, self._separator, self.back_button, self.patient_name, self.session_label)
-        left.addStretch(1)
-        right = _row(self._right, 16, self.camera, self.disk, self.reanalysis_button, self.recording_pill)
-        right.insertStretch(0, 1)
-        right.addSpacing(-4)
+        bare = (0, 0, 0, 0)
+        row_layout(
+            self.brand, self._separator, self.back_button, self.patient_name, self.session_label, STRETCH, gap=8,
+            margins=bare, parent=self._left,
+        )  # fmt: skip
+        right = row_layout(
+            STRETCH, self.camera, self.disk, self.reanalysis_button, self.recording_pill, -4, gap=16, margins=bare,
+            parent=self._right,
+        )  # fmt: skip
         for button in (self.therapist_button, self.names_button, self.help_button):
             right.addWidget(button)
             right.addSpacing(-12)
@@ -244,7 +248,7 @@ class NavigationButton(Button):
         painter.drawEllipse(box.center(), box.width() / 2 - 0.5, box.width() / 2 - 0.5)
         painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
         painter.setPen(color("on_accent" if here else "text2"))
-        painter.drawText(box.translated(QPointF(0, 0)), Qt.AlignmentFlag.AlignCenter, str(self._number + 1))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(self._number + 1))
 
 
 class ReanalysisButton(Button):
@@ -291,8 +295,7 @@ class _Brand(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._mark, self._word = Icon(theme, "carpus", 22, (26, 32)), Text(theme, "Carpus", 16, SEMIBOLD)
-        row = _row(self, 6, self._mark, self._word)
-        row.addSpacing(6)
+        row_layout(self._mark, self._word, 6, gap=6, margins=(0, 0, 0, 0), parent=self)
         self.setAccessibleName("Carpus")
 
     def width_px(self, named: bool) -> int:
@@ -300,13 +303,6 @@ class _Brand(QWidget):
 
     def show_name(self, named: bool) -> None:
         self._word.setVisible(named)
-
-
-def _row(host: QWidget, spacing_px: int, *widgets: QWidget) -> QHBoxLayout:
-    row = row_layout(gap=spacing_px, margins=(0, 0, 0, 0), parent=host)
-    for widget in widgets:
-        row.addWidget(widget)
-    return row
 
 
 PillState = Literal["off", "recording", "paused"]

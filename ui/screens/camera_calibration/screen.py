@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QStackedWidget, QWidget
 
 from carpus.core.calibration.camera.printed_sheet import RULER_MM, Paper
 from carpus.ui.kit.button import ENTER_KEY, Button
-from carpus.ui.kit.card import Card, Separator
+from carpus.ui.kit.card import Card, Separator, progress_bar
 from carpus.ui.kit.field import ChoiceRow, ignore_wheel
 from carpus.ui.kit.keys import bind_key
 from carpus.ui.kit.layouts import (
@@ -24,7 +24,6 @@ from carpus.ui.kit.layouts import (
     row_layout,
     scroll_column,
 )
-from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.kit.translate import translate_phrase
@@ -193,7 +192,7 @@ class BoardCaptureView(FittedWidget):
         self._condition_texts = [StateText(theme) for _ in range(3)]
         self.primary_button = Button(theme, "", "primary")
         self.stop_button = Button(theme, self.tr("Stop"), "quiet", hint=self.tr("Esc"), height_px=40)
-        self.bar = ThinProgressBar(theme, self.tr("Progress"))
+        self.bar = progress_bar(self.tr("Progress"))
         words = self.tr("Images are taken automatically when the board is still, sharp and in a new position.")
         conditions = Card(theme)
         conditions.body.addLayout(column_layout(*self._condition_texts, gap=8))
@@ -227,7 +226,7 @@ class BoardCaptureView(FittedWidget):
         self.instruction.setText(self.tr("Please wait"))
         self.hint.setText(self.tr("Opening the camera…"))
         self.bar.show()
-        self.bar.show_busy()
+        self.bar.setRange(0, 0)
         self.primary_button.setEnabled(False)
         self.primary_button.set_label(button_words(None))
         self.frame_count.show_state("open", self.tr("No image yet"))
@@ -269,7 +268,7 @@ class BoardCaptureView(FittedWidget):
         self.frame_view.setFocus(Qt.FocusReason.OtherFocusReason)  # else on the way back, where a key more would leave
         self.primary_button.setEnabled(False)
         self.bar.show()
-        self.bar.show_busy()
+        self.bar.setRange(0, 0)
 
     def show_shortfall(self, words: str) -> None:
         """Show why the images are not enough; they stay."""

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.calibration.card.card import CHECK_S, DISCS
 from carpus.core.model.rounding import round_half_away
 from carpus.ui.kit.button import ENTER_KEY, Button
+from carpus.ui.kit.card import progress_bar
 from carpus.ui.kit.field import ChoiceRow
 from carpus.ui.kit.icons import State
 from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, fill, row_layout, scroll_column
-from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, ON_PICTURE_PROPOSED, Theme
 from carpus.ui.picture.photo import paint_label
@@ -42,7 +42,7 @@ class CheckCardScreen(FittedWidget):
         self.verdict = StateText(theme)
         self.instruction = Text(theme, "", 18, SEMIBOLD, wrap=True)
         self.countdown = Text(theme, "", 44, SEMIBOLD)
-        self.bar = ThinProgressBar(theme, self.tr("Progress of the check"))
+        self.bar = progress_bar(self.tr("Progress of the check"))
         self.check_button = Button(theme, "", "primary", icon="play", hint=ENTER_KEY)
         self.stop_button = Button(theme, self.tr("Stop"), hint=self.tr("Esc"))
         self.paper = ChoiceRow(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
@@ -133,7 +133,8 @@ class CheckCardScreen(FittedWidget):
         self.progress = now
         seconds = 0.0 if now is None else now.seconds
         self.countdown.setText(self.tr("{seconds} s").format(seconds=max(round_half_away(CHECK_S - seconds), 0)))
-        self.bar.show_progress(round(10 * min(seconds, CHECK_S)), round(10 * CHECK_S))
+        self.bar.setRange(0, round(10 * CHECK_S))
+        self.bar.setValue(round(10 * min(seconds, CHECK_S)))
         self.instruction.setText(card_hint(now))
         self.frame_view.update()
 

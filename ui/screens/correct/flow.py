@@ -21,9 +21,9 @@ from carpus.core.session.values import Session, SessionHeader
 from carpus.ui.kit import numbers
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import progress_bar
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
-from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import to_mid_sentence, tr
@@ -282,7 +282,7 @@ class ResultsDialog(Dialog):
         self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.session_label = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.words = Text(theme, "", 14, REGULAR, wrap=True)
-        self.bar = ThinProgressBar(theme, self.tr("Progress of the re-analysis"))
+        self.bar = progress_bar(self.tr("Progress of the re-analysis"))
         self.stop_button = Button(theme, self.tr("&Stop"), "plain", height_px=44)
         self.keep_button = Button(theme, self.tr("&Keep old result"), "plain", height_px=44)
         self.use_button = Button(theme, self.tr("&Use new result"), "plain", height_px=44)
@@ -298,7 +298,7 @@ class ResultsDialog(Dialog):
 
     def show_running(self, session_label: str, percent: int) -> None:
         self._show_heading(self.tr("Re-analysing: {percent} %").format(percent=percent), session_label)
-        self.bar.show_progress(percent, 100)
+        self.bar.setValue(percent)
         self.words.setText(
             self.tr(
                 "You can continue working. The old result stays until you choose the new one. “Stop” keeps the old "

@@ -10,10 +10,10 @@ from PySide6.QtWidgets import QCheckBox, QWidget
 from carpus.core.formats.export import FORMATS
 from carpus.core.formats.output_files import MACHINE_DIALECT
 from carpus.ui.kit.button import Button
+from carpus.ui.kit.card import progress_bar
 from carpus.ui.kit.dialog import Dialog
 from carpus.ui.kit.field import Combo, LabelledField
 from carpus.ui.kit.layouts import STRETCH, fill, row_layout
-from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.table_file import OFFERED_REGIONS, regional_table_form, user_region
 from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import Theme
@@ -65,7 +65,7 @@ class ExportDialog(Dialog):
         self.region_choice = self._make_region_choice()
         fill(body, LabelledField(theme, self.tr("&Tables for"), self.region_choice), 8)
         self.deidentify_tick = self._add_tick(self.tr("De-identified: random name, relative days, no notes"))
-        self.bar = ThinProgressBar(theme, self.tr("Progress of the export"))
+        self.bar = progress_bar(self.tr("Progress of the export"))
         fill(body, 8, self.bar, 8)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.folder_button = Button(theme, self.tr("Choose folder…"), "primary", height_px=44)
@@ -106,11 +106,12 @@ class ExportDialog(Dialog):
 
     def show_running(self) -> None:
         self._is_running = True
-        self.bar.show_busy()
+        self.bar.setRange(0, 0)
         self._show_state()
 
     def show_progress(self, done: int, total: int) -> None:
-        self.bar.show_progress(done, total)
+        self.bar.setRange(0, max(total, 1))
+        self.bar.setValue(done)
 
     def dismiss(self) -> None:
         """Stop a running export, else close."""

@@ -41,7 +41,7 @@ class ExportController(QObject):
         folder = QFileDialog.getExistingDirectory(context.window, self.tr("Export to folder"), start)
         if not folder:
             return
-        context.recent_locations.save_folder("exports", folder)
+        context.recent_locations.save("exports", folder)
         self._stop_event.clear()
         self.dialog.show_running()
 

@@ -19,10 +19,9 @@ from carpus.ui.charts.history import History, MarkerVisibility
 from carpus.ui.charts.live_curves import LiveCurves
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.button import Button
-from carpus.ui.kit.card import Separator
+from carpus.ui.kit.card import Separator, progress_bar
 from carpus.ui.kit.keys import bind_screen_keys
 from carpus.ui.kit.layouts import STRETCH, FittedWidget, column_layout, fill, row_layout
-from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import SEMIBOLD, Text
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.picture.movement_guide import ExerciseSnapshot
@@ -102,7 +101,7 @@ class LiveScreen(FittedWidget):
         self.course_label = Text(theme, "", 16, SEMIBOLD, wrap=True)
         """Part of a running set of exercises, and the remaining rest."""
         self.course_label.hide()
-        self.catch_up_bar = ThinProgressBar(theme, self.tr("Progress of the analysis"))
+        self.catch_up_bar = progress_bar(self.tr("Progress of the analysis"))
         self.catch_up_bar.hide()
         self.bubble = BubbleView(theme, wide=True, keys=False)
         self.note_dialog = NoteDialog(self.stage, theme)
@@ -314,7 +313,8 @@ class LiveScreen(FittedWidget):
             self.catch_up_bar.setVisible(left is not None)
             self.controls.show_storing(catch_up_words(counters) if left else "")
             if left is not None:
-                self.catch_up_bar.show_progress(*left)
+                self.catch_up_bar.setRange(0, max(left[1], 1))
+                self.catch_up_bar.setValue(left[0])
         self.number_card.show_reading(current_reading(self.number_card.reading, self.history, recording))
         self.recording_changed.emit(recording.state, recording.duration_s)
 

@@ -39,7 +39,7 @@ class MarkersFlow(Flow):
         day = numbers.format_day_month(alike[0].recorded) if alike else ""
         self.screen.open_calibrator(source.calibrator, picture, day)
         self.context.navigator.switch_screen("markers")
-        if now.source_kind == "camera":
+        if now.source_choice.kind == "camera":
             self.context.camera.set_serial(source.measuring.feed.info.serial)
 
     def navigate_back(self) -> None:

@@ -55,13 +55,10 @@ class DeletionController(QObject):
         self._sessions().session_moved.connect(self._on_moved)
 
     def plan_session_deletion(self, session_id: str) -> None:
-        self._make_plan(lambda: self._records.plan_session(session_id))
+        self._context.run(self, lambda: self._records.plan_session(session_id), self._show_plan)
 
     def plan_patient_deletion(self, patient_id: str) -> None:
-        self._make_plan(lambda: self._records.plan_patient(patient_id))
-
-    def _make_plan(self, work: Callable[[], ErasurePlan]) -> None:
-        self._context.background.run(work, self._show_plan, self._context.messages.show_fault, self)
+        self._context.run(self, lambda: self._records.plan_patient(patient_id), self._show_plan)
 
     def _show_plan(self, plan: ErasurePlan) -> None:
         self._plan, patient = plan, self._context.current.patient
@@ -72,11 +69,11 @@ class DeletionController(QObject):
     def _delete(self) -> None:
         plan, self._plan = self._plan, None
         if plan is not None:
-            self._context.background.run(
+            self._context.run(
+                self,
                 lambda: self._records.erase(plan),
                 lambda files: self._on_deleted(plan, files),
                 lambda fault: self._on_delete_failed(plan, fault),
-                self,
             )
 
     def _on_deleted(self, plan: ErasurePlan, files: int) -> None:
@@ -108,9 +105,7 @@ class DeletionController(QObject):
                 self._refresh_after_removal(plan)
                 self._offer_undo(plan, plan.subject_id)
 
-            self._context.background.run(
-                lambda: act(plan.subject_id), on_archived, self._context.messages.show_fault, self
-            )
+            self._context.run(self, lambda: act(plan.subject_id), on_archived)
 
     def _offer_undo(self, plan: ErasurePlan, archived: str) -> None:
         """Show what was archived, with an undo button."""
@@ -129,12 +124,7 @@ class DeletionController(QObject):
         self._context.navigator.screen_changing.connect(strip.postponed)  # on other screens the archive shows it
 
     def _restore(self, identity: str) -> None:
-        self._context.background.run(
-            lambda: self._records.unarchive(identity),
-            lambda _: self.refresh_lists(identity),
-            self._context.messages.show_fault,
-            self,
-        )
+        self._context.run(self, lambda: self._records.unarchive(identity), lambda _: self.refresh_lists(identity))
 
     def refresh_lists(self, selected_id: str = "") -> None:
         """Reload the visible list and select a patient or session."""

@@ -77,7 +77,7 @@ class LockController(QObject):
         shortcut = QShortcut(QKeySequence(KEYS["lock"]), shell)
         shortcut.activated.connect(self.lock_or_set_pin)
         self.idle_timer = IdleTimer(shell)
-        self.idle_timer.timed_out.connect(self._lock_when_idle)
+        self.idle_timer.timeout.connect(self._lock_when_idle)
 
     @property
     def is_locked(self) -> bool:
@@ -179,8 +179,7 @@ class LockController(QObject):
             return
         self._library.audit_log.log_program("pin_changed", set=int(bool(new)))
         self.pin_dialog.close_dialog()
-        self.card.show_pin(is_set=self.pin.is_set)
-        self._restart_idle_timer()
+        self.refresh()
 
     def refresh(self) -> None:
         self.card.show_pin(is_set=self.pin.is_set)
@@ -201,40 +200,28 @@ ACTIVITY_EVENTS = (
 )  # fmt: skip
 
 
-class IdleTimer(QObject):
-    """Timer without input in the window.
-
-    Signals: ``timed_out`` once.
-    """
-
-    timed_out = Signal()
+class IdleTimer(QTimer):
+    """Timer without input in the window."""
 
     def __init__(self, window: QWidget) -> None:
-        super().__init__(window)
+        super().__init__(window, singleShot=True)
         self._window = window
         self._watched: QObject | None = None
-        self._timer = QTimer(self, singleShot=True)
-        self._timer.timeout.connect(self.timed_out)
-
-    @property
-    def remaining_ms(self) -> int:
-        """Time until it fires; -1 if it is stopped."""
-        return self._timer.remainingTime()
 
     def restart(self, milliseconds: int) -> None:
         """Restart the timer; 0 stops it."""
-        self._timer.stop()
+        self.stop()
         handle: QWindow | None = self._window.windowHandle()  # none before the window was made
         # What the system sends the window, and nothing else: the many events within it pass nobody's hand.
         if milliseconds and handle is not None and handle is not self._watched:
             handle.installEventFilter(self)
             self._watched = handle
         if milliseconds:
-            self._timer.start(milliseconds)
+            self.start(milliseconds)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() in ACTIVITY_EVENTS and self._timer.isActive():
-            self._timer.start()
+        if event.type() in ACTIVITY_EVENTS and self.isActive():
+            self.start()
         return False
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QAbstractItemView, QTableWidget, QTableWidgetItem, QWidget
@@ -33,8 +32,6 @@ from carpus.ui.screens.records.deletion import DeletionController
 from carpus.ui.screens.sessions.screen import SessionsScreen
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.words import terms
-
-T = TypeVar("T")
 
 
 class RecordListsController(QObject):
@@ -69,7 +66,9 @@ class RecordListsController(QObject):
         self.card.log_button.clicked.connect(self.show_log)
         self.records_dialog.restore_requested.connect(self._restore)
         self.records_dialog.archive_requested.connect(
-            lambda patient_id: self._run(lambda: records.archive_patient(patient_id), lambda _: self.show_due())
+            lambda patient_id: self._context.run(
+                self, lambda: records.archive_patient(patient_id), lambda _: self.show_due()
+            )
         )
         self.records_dialog.delete_requested.connect(self._delete)
 
@@ -77,13 +76,10 @@ class RecordListsController(QObject):
         self.retention_years = years
         self._save_years(years)
 
-    def _run(self, work: Callable[[], T], on_done: Callable[[T], None]) -> None:
-        self._context.background.run(work, on_done, self._context.messages.show_fault, self)
-
     def show_due(self) -> None:
         """Show patients past their retention period."""
         store, years, today = self._context.library.store, self.retention_years, self._context.today()
-        self._run(lambda: find_due_patients(store, years, today), self._show_due)
+        self._context.run(self, lambda: find_due_patients(store, years, today), self._show_due)
 
     def _show_due(self, found: list[DuePatient]) -> None:
         words = self.tr("No record is past its retention period.")
@@ -115,7 +111,7 @@ class RecordListsController(QObject):
     def show_archive(self, is_shown: Callable[[ArchivedItem], bool] | None = None) -> None:
         """Show archived items, all or those that ``is_shown`` accepts."""
         self._archive_filter = is_shown or (lambda _: True)
-        self._run(self._records.list_archived, self._show_archive)
+        self._context.run(self, self._records.list_archived, self._show_archive)
 
     def _show_patient_archive(self, patient_id: str) -> None:
         self.show_archive(lambda one: one.recorded is not None and one.patient_id == patient_id)
@@ -140,7 +136,7 @@ class RecordListsController(QObject):
             self._deletion.refresh_lists()
             self.show_archive(self._archive_filter)
 
-        self._run(lambda: self._records.unarchive(identity), on_restored)
+        self._context.run(self, lambda: self._records.unarchive(identity), on_restored)
 
     def _delete(self, identity: str) -> None:
         self.records_dialog.close_dialog()
@@ -151,7 +147,7 @@ class RecordListsController(QObject):
             self._deletion.plan_patient_deletion(identity)
 
     def show_log(self) -> None:
-        self._run(lambda: (self._records.read_log(), self._records.subject_names()), self._show_log)
+        self._context.run(self, lambda: (self._records.read_log(), self._records.subject_names()), self._show_log)
 
     def _show_log(self, found: tuple[Sequence[AuditEntry], dict[str, str]]) -> None:
         entries, names = found
@@ -245,9 +241,8 @@ class RecordsDialog(Dialog):
 
     def _fit_card(self) -> None:
         super()._fit_card()
-        if hasattr(self, "_scroll"):
-            column = self.rows.totalHeightForWidth(self.card.width() - 60) if self.buttons else 8
-            self._scroll.setFixedHeight(max(min(column, require_parent(self).height() - self._theme.px(240)), 8))
+        column = self.rows.totalHeightForWidth(self.card.width() - 60) if self.buttons else 8
+        self._scroll.setFixedHeight(max(min(column, require_parent(self).height() - self._theme.px(240)), 8))
 
     def _make_row(self, record: ListedRecord) -> QWidget:
         row = QWidget()
@@ -307,8 +302,6 @@ class LogDialog(Dialog):
 
     def _fit_card(self) -> None:
         super()._fit_card()
-        if not hasattr(self, "table"):
-            return  # the sheet is being made
         self.table.setFont(font(14 * self._theme.text_scale, REGULAR))
         self.table.verticalHeader().setDefaultSectionSize(self._theme.px(32))
         self.table.setFixedHeight(max(require_parent(self).height() - self._theme.px(250), 80))

@@ -53,7 +53,7 @@ class ReportFlow(Flow):
             lambda session_id, text: self._run_or_report(lambda: context.library.save_comment(session_id, text))
         )
         screen.saved.connect(self._register_file)
-        screen.saved.connect(lambda path: context.recent_locations.save_folder("reports", str(Path(path).parent)))
+        screen.saved.connect(lambda path: context.recent_locations.save("reports", str(Path(path).parent)))
         screen.sent.connect(self._register_file)
 
     def open(self, report: str | ProgressReport, sessions: Sequence[str] = ()) -> None:

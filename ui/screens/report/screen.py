@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QMarginsF, QSize, Qt, QUrl, Signal
+from PySide6.QtCore import QMarginsF, QSize, Qt, QUrl, Signal, SignalInstance
 from PySide6.QtGui import QColor, QDesktopServices, QPageLayout, QPageSize, QPainter, QPicture, QPixmap
 from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QSizePolicy, QWidget
@@ -51,7 +51,7 @@ class ReportScreen(QWidget):
     def __init__(self, theme: Theme, background: Background) -> None:
         super().__init__()
         self._theme, self._background = theme, background
-        self._report: Report | None = None
+        self.report: Report | None = None
         self._folder = ""
         self._name = ""
         self._saved_report: tuple[Report, str] | None = None
@@ -74,9 +74,10 @@ class ReportScreen(QWidget):
         self.open_button.clicked.connect(self._open)
         self.print_button.clicked.connect(self.print_report)
         self.panel.changed.connect(self._show_changed)
-        self.letter_button.clicked.connect(self._request_letter)
-        self.home_button.clicked.connect(self._request_home_sheet)
-        self.send_button.clicked.connect(self._request_sending)
+        self.letter_button.clicked.connect(lambda: self._request(self.letter_requested))
+        self.home_button.clicked.connect(lambda: self._request(self.home_sheet_requested))
+        self.send_button.clicked.connect(lambda: self._request(self.send_requested))
+        self.send_requested.connect(lambda _: self.send_button.setEnabled(False))
         self.back_button.clicked.connect(self.show_parent_report)
         bind_screen_keys(self, {"report": self.save_button.click, "home_sheet": self.home_button.click})
 
@@ -117,7 +118,7 @@ class ReportScreen(QWidget):
     # --- life ---------------------------------------------------------------------------------------------
     def show_report(self, report: Report, folder: str) -> None:
         """Show a report; ``folder`` is where saving starts."""
-        self._report, self._folder = report, folder
+        self.report, self._folder = report, folder
         self._name = default_file_name(report)
         self.panel.setVisible(isinstance(report, SessionReport))
         self.letter_button.setVisible(isinstance(report, SessionReport))
@@ -133,7 +134,7 @@ class ReportScreen(QWidget):
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_changed(self, report: Report) -> None:
-        self._report = report
+        self.report = report
         self._show_saved()
         self._show_pages(report)
 
@@ -152,13 +153,9 @@ class ReportScreen(QWidget):
             )
         self.pages_text.setText(words.format(pages=pages))
 
-    @property
-    def report(self) -> Report | None:
-        return self._report
-
     def _show_saved(self) -> None:
         """Show the path of the report if it was saved, also after a letter was made of it."""
-        path = self._saved_report[1] if self._saved_report is not None and self._saved_report[0] is self._report else ""
+        path = self._saved_report[1] if self._saved_report is not None and self._saved_report[0] is self.report else ""
         words = self.tr("Saved") if path else self.tr("Not saved yet")
         self.save_state.show_state("good" if path else "none", words, icon="file-text", token="text")
         self.path_text.show_text(path)
@@ -170,20 +167,11 @@ class ReportScreen(QWidget):
         if path:
             self.save(path, may_replace=True)
 
-    def _request_letter(self) -> None:
+    def _request(self, requested: SignalInstance) -> None:
+        """Ask for what is made of a session's report, with the comment as it is typed."""
         self.panel.save_comment()
-        if isinstance(self._report, SessionReport):
-            self.letter_requested.emit(self._report)
-
-    def _request_home_sheet(self) -> None:
-        if isinstance(self._report, SessionReport):
-            self.home_sheet_requested.emit(self._report)
-
-    def _request_sending(self) -> None:
-        self.panel.save_comment()
-        if isinstance(self._report, SessionReport):
-            self.send_button.setEnabled(False)
-            self.send_requested.emit(self._report)
+        if isinstance(self.report, SessionReport):
+            requested.emit(self.report)
 
     def show_sent(self, report: Report, path: str) -> None:
         """Show that the practice system has the report; an empty path that it could not be sent."""
@@ -195,25 +183,25 @@ class ReportScreen(QWidget):
 
     def show_parent_report(self) -> bool:
         """Return from a letter or home sheet to its report; False if there is none."""
-        if not isinstance(self._report, LetterReport | HomeReport):
+        if not isinstance(self.report, LetterReport | HomeReport):
             return False
-        self.show_report(self._report.report, self._folder)
+        self.show_report(self.report.report, self._folder)
         return True
 
     def print_report(self) -> None:
         self.panel.save_comment()
-        if self._report is None:
+        if self.report is None:
             return
-        printer = make_printer(self._report, len(self.preview.pages))
+        printer = make_printer(self.report, len(self.preview.pages))
         if QPrintDialog(printer, self).exec():
             print_pages(printer, self.preview.pages)
             if printer.outputFileName():  # printed into a file, which goes with the session when that is erased
-                self._finish_saving(self._report, printer.outputFileName())
+                self._finish_saving(self.report, printer.outputFileName())
 
     def save(self, path: str, *, may_replace: bool = False) -> None:
         """Write the PDF in the background; the file dialog has asked before replacing a file."""
         self.panel.save_comment()
-        report = self._report
+        report = self.report
         if report is None:
             return
         target = Path(path if path.lower().endswith(".pdf") else f"{path}.pdf")

@@ -64,9 +64,8 @@ class RetestDialog(Dialog):
 
     def _fit_card(self) -> None:
         super()._fit_card()
-        if hasattr(self, "_area"):  # not while the sheet is being made
-            room = require_parent(self).height() - self._theme.px(MARGINS_PX)
-            self._area.setFixedHeight(max(min(self._theme.px(HEIGHT_PX), room), self._theme.px(80)))
+        room = require_parent(self).height() - self._theme.px(MARGINS_PX)
+        self._area.setFixedHeight(max(min(self._theme.px(HEIGHT_PX), room), self._theme.px(80)))
 
     def _accept(self) -> None:
         self.close_dialog()

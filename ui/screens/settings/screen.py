@@ -61,7 +61,7 @@ class SettingsScreen(QWidget):
 
     def __init__(self, theme: Theme, preferences: Preferences, measured: ErrorLimits = DEFAULT_LIMITS) -> None:
         super().__init__()
-        self._theme, self.preferences, self._clinic_limits = theme, preferences, measured
+        self._theme, self.preferences = theme, preferences
         table = self._make_table(theme)
         self.form = Form(theme, [field for *_, fields in table for field in fields])
         self.form.fill(preferences)
@@ -212,7 +212,6 @@ class SettingsScreen(QWidget):
         self.index.currentRowChanged.connect(self._page_stack.setCurrentIndex)
 
     def show_limits(self, measured: ErrorLimits) -> None:
-        self._clinic_limits = measured
         while (item := self._limits_host.body.takeAt(0)) is not None:
             if (old := item.widget()) is not None:
                 self.retest_button.setParent(None)

@@ -9,9 +9,8 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus.core.records.session_setup import SessionSetup
 from carpus.ui.kit.button import ENTER_KEY, Button
-from carpus.ui.kit.card import Card
+from carpus.ui.kit.card import Card, progress_bar
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, row_layout
-from carpus.ui.kit.progress_bar import ThinProgressBar
 from carpus.ui.kit.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.kit.theme import MARGIN_PX, Theme
 from carpus.ui.kit.translate import translate_phrase
@@ -58,7 +57,7 @@ class CameraScreen(QWidget):
         self.choose_folder_button = Button(theme, self.tr("Choose a fol&der…"), icon="folder-open", height_px=40)
         self.position_label = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.progress_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.progress = ThinProgressBar(theme, self.tr("Progress"))
+        self.progress = progress_bar(self.tr("Progress"))
         self.bubble = BubbleView(theme)
         self.primary_button = Button(theme, "", "primary", hint=ENTER_KEY)
         self._build_layout()
@@ -127,7 +126,7 @@ class CameraScreen(QWidget):
             self.setFocus(Qt.FocusReason.OtherFocusReason)
         self.is_opening = opening
         self.progress.setVisible(opening)
-        self.progress.show_busy()
+        self.progress.setRange(0, 0)
         self.progress_words.show_text(words)
         for widget in (self.sources, self._files):
             widget.setEnabled(not opening)

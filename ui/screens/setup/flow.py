@@ -113,13 +113,12 @@ class CameraFlow(Flow):
         opener, camera, screen = context.opener, context.camera, self.screen
         camera.notify_availability(lambda: screen.set_camera_ready(camera.is_connected, camera.name))
         screen.source_chosen.connect(opener.open)
-        screen.path_chosen.connect(
-            lambda path: context.recent_locations.save_folder("recordings", str(Path(path).parent))
-        )
+        screen.path_chosen.connect(lambda path: context.recent_locations.save("recordings", str(Path(path).parent)))
         opener.opening.connect(self._on_opening)
         opener.opened.connect(self._on_opened)
         opener.failed.connect(self._on_failed)
-        opener.progress_changed.connect(screen.progress.show_progress)
+        opener.progress_changed.connect(lambda _, total: screen.progress.setMaximum(max(total, 1)))
+        opener.progress_changed.connect(lambda done, _: screen.progress.setValue(done))
 
     def open(self, patient_id: str = "", goes_on: bool = False) -> None:
         """Open for the chosen set-up; ``goes_on`` opens a camera that is ready without asking.
@@ -144,9 +143,9 @@ class CameraFlow(Flow):
 
     def _open_ready_source(self) -> None:
         """Open the source if there is nothing to choose: no recording is wanted and the camera is ready."""
-        now = self.context.current
-        if now.source_kind == "practice" or (now.source_kind == "camera" and self.context.camera.is_connected):
-            self.context.opener.open(now.source_choice)
+        choice = self.context.current.source_choice
+        if choice.kind == "practice" or (choice.kind == "camera" and self.context.camera.is_connected):
+            self.context.opener.open(choice)
 
     def _show_screen(self) -> None:
         now = self.context.current
@@ -157,9 +156,9 @@ class CameraFlow(Flow):
         practises = now.set_up.patient_id == PRACTICE_PATIENT
         if practises:
             now.source_choice = SourceChoice("practice")
-        elif now.source_kind == "practice" and not self.context.is_demo:
+        elif now.source_choice.kind == "practice" and not self.context.is_demo:
             now.source_choice = SourceChoice("camera")  # only the practice patient is simulated without being asked
-        self.screen.show_set_up(now.set_up, now.source_kind)
+        self.screen.show_set_up(now.set_up, now.source_choice.kind)
         self.context.navigator.switch_screen("camera")
 
     def navigate_back(self) -> None:
