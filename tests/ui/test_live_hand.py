@@ -84,7 +84,7 @@ def test_joint_counts_as_measured_only_while_marker_beyond_it_is_seen() -> None:
     wrong = {FingerAngle(4, "middle"), FingerAngle(4, "end"), FingerAngle(4, "tam")}
     wrong |= {FingerAngle(1, row) for row in ("middle", "spread", "knuckle", "tam")}
     assert {figure for figure, on in measured.items() if not on} == wrong
-    assert history.angle_block().series(FINGER_ANGLES.index(FingerAngle(4, "middle"))).predicted.all()
+    assert history.finger_series()[FINGER_ANGLES.index(FingerAngle(4, "middle"))].predicted.all()
     assert history.is_inferred(FINGER_ANGLES.index(FingerAngle(2, "end")))  # coupled: it follows the middle joint
     seen = history.marker_visibility()
     assert {name for name, state in seen.items() if state == "hidden"} == {"DIP4", "TIP4", "MCP1"}
@@ -98,13 +98,12 @@ def test_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s: 
     ]
     history = History(HAND21)
     history.append([*frames[:31], *frames[32:]])
-    block = history.angle_block()
-    assert 1.0 / np.median(np.diff(block.time_s)) == pytest.approx(points_s)
-    series = block.series(FINGER_ANGLES.index(FingerAngle(4, "middle")))
+    series = history.finger_series()[FINGER_ANGLES.index(FingerAngle(4, "middle"))]
+    assert 1.0 / np.median(np.diff(series.time_s)) == pytest.approx(points_s)
     assert series.gaps_s() == []
     last = frames[-1]
     history.append([replace(last, index=last.index + 19, timestamp_s=last.timestamp_s + 19 * every / 30.0)])
-    assert len(history.angle_block().series(0).gaps_s()) == 1
+    assert len(history.finger_series()[0].gaps_s()) == 1
 
 
 def test_live_hand_occluded_trained_joint_has_no_value(live: Live) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -663,12 +662,6 @@ class Chart(pg.GraphicsView):
             self.plot_style = screen_style(self._theme)
             self.resizeEvent(None)
             self.refresh()
-
-
-def span_html(words: str, style: PlotStyle, token: str, size_px: float, weight: int) -> str:
-    """Return words as HTML in a colour, size and weight."""
-    color = style.color(token).name()
-    return f'<span style="color:{color};font-size:{round(size_px)}px;font-weight:{int(weight)}">{escape(words)}</span>'
 
 
 class HoverLabel(pg.TextItem):

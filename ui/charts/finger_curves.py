@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
 
-from carpus.ui.charts.chart import Chart, PaintedLayer
+from carpus.ui.charts.chart import Chart, PaintedLayer, fit_font
 from carpus.ui.charts.history import VISIBLE_S, History
 from carpus.ui.charts.panel import Panel, Scale, draw_hatching, draw_text, positive_scale, screen_style
 from carpus.ui.charts.series import Curve
@@ -34,7 +34,6 @@ BENDING = Scale(-15.0, 115.0, (90.0, 45.0, 0.0), ((90.0, "90°"), (45.0, "45°")
 SPREADING = Scale(-32.0, 32.0, (20.0, 0.0, -20.0), ())
 BENDING_TOP_DEG_S, SPREADING_TOP_DEG_S = 400.0, 200.0
 BENDING_ROWS: tuple[AngleKind, ...] = ("end", "middle", "knuckle")
-MIN_TEXT_PX = 11
 SPREADING_ROWS: tuple[AngleKind, ...] = ("spread",)
 MIN_HEIGHT_WITH_VALUES_PX, MIN_HEIGHT_WITH_SPREADING_PX = 290, 160
 # From this standard deviation on an angle is marked as uncertain.
@@ -167,19 +166,19 @@ class FingerCurves(Chart):
         """Redraw the curves of all panels."""
         if not self.plots or not self.isVisible():
             return
-        block = self._history.angle_block(speeds=self._is_showing_speeds)
+        series = self._history.finger_series(speeds=self._is_showing_speeds)
         for curves, angles in self._curves:
-            curves.set_curves([Curve(block.series(_ANGLE_INDEX[one]), one.token) for one in angles])
+            curves.set_curves([Curve(series[_ANGLE_INDEX[one]], one.token) for one in angles])
 
     def _paint_values(self, painter: QPainter) -> None:
         scale = self._theme.text_scale
-        number, words = _Face.from_font(font(16 * scale, SEMIBOLD)), _Face.from_font(font(12 * scale, MEDIUM))
+        number, words = font(16 * scale, SEMIBOLD), font(12 * scale, MEDIUM)
         shown_rows = self._visible_kinds()
         for figure in FINGER_ANGLES:
             if figure.kind in shown_rows:
                 self._paint_value(painter, figure, number, words)
 
-    def _paint_value(self, painter: QPainter, angle: FingerAngle, number: _Face, words: _Face) -> None:
+    def _paint_value(self, painter: QPainter, angle: FingerAngle, number: QFont, words: QFont) -> None:
         theme, cell = self._theme, self.cell(angle)
         value, sd, measured = self._values.get(angle, (math.nan, math.nan, False))
         is_known = math.isfinite(value) and not self._is_waiting
@@ -188,13 +187,13 @@ class FingerCurves(Chart):
         middle = cell.center().y()
         if is_known:
             self._paint_line(painter, angle, cell, predicted=predicted)
-        left, baseline = cell.left() + 18, middle + number.metrics.capHeight() / 2
+        metrics, wide_px = QFontMetricsF(number), QFontMetricsF(words).horizontalAdvance
+        left, baseline = cell.left() + 18, middle + metrics.capHeight() / 2
         text = numbers.format_degrees(value if is_known else math.nan)
-        draw_text(painter, QPointF(left, baseline), text, number.font, theme.color("text2" if predicted else "text"))
+        draw_text(painter, QPointF(left, baseline), text, number, theme.color("text2" if predicted else "text"))
         if not is_known:
             return
-        left += number.metrics.horizontalAdvance(text) + 4
-        wide_px = words.metrics.horizontalAdvance
+        left += metrics.horizontalAdvance(text) + 4
         beside = numbers.format_sd(sd)
         if inferred and beside:
             beside = self.tr("inferred from PIP")
@@ -204,7 +203,7 @@ class FingerCurves(Chart):
             both = f"{beside} {name}"
             # What an angle is goes before how sure it is.
             beside = both if wide_px(both) < cell.right() - left - 18 else name
-        draw_text(painter, QPointF(left, baseline), beside, words.font, theme.color("text2"))
+        draw_text(painter, QPointF(left, baseline), beside, words, theme.color("text2"))
         left += wide_px(beside) + 5
         if not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
             box = QRectF(left, middle - 6.5, 13, 13)  # a triangle: the half disc is that of a marker seen now and then
@@ -257,22 +256,8 @@ class FingerCurves(Chart):
         room_px: float = math.inf,
     ) -> None:  # fmt: skip
         """Draw text, smaller where a language needs a longer word."""
-        wide_px = QFontMetricsF(font(size * self._theme.text_scale, weight)).horizontalAdvance(text)
-        shown = max(MIN_TEXT_PX, size * min(1.0, room_px / max(wide_px, 1.0)))
-        face = font(shown * self._theme.text_scale, weight)
+        face = fit_font(font(size * self._theme.text_scale, weight), text, room_px)
         draw_text(painter, QPointF(left, top + QFontMetricsF(face).ascent()), text, face, self._theme.color(token))
-
-
-@dataclass(frozen=True, slots=True)
-class _Face:
-    """Font with its metrics, made once for all values."""
-
-    font: QFont
-    metrics: QFontMetricsF
-
-    @staticmethod
-    def from_font(face: QFont) -> _Face:
-        return _Face(face, QFontMetricsF(face))
 
 
 def angle_suffix(angle: FingerAngle, value_deg: float) -> str:

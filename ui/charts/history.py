@@ -44,34 +44,6 @@ _SPEEDS = slice(20, 22)
 _COLUMNS = 22
 
 
-@dataclass(frozen=True, slots=True)
-class AngleBlock:
-    """Samples of all finger angles.
-
-    Parameters
-    ----------
-    time_s
-            Times (n,), counted from ``start_s``.
-    value_deg, sd_deg
-            Angles and standard deviations (n, F).
-    predicted
-            True where an angle was not measured (n, F).
-    """
-
-    time_s: FloatArray
-    value_deg: FloatArray
-    sd_deg: FloatArray
-    predicted: BoolArray
-    start_s: float
-    max_step_s: float
-
-    def series(self, index: int) -> Series:
-        return Series(
-            self.time_s, self.value_deg[:, index], self.sd_deg[:, index], self.predicted[:, index],
-            self.max_step_s, self.start_s,
-        )  # fmt: skip
-
-
 class History:
     """Buffer of tracked frames, returned as arrays over the last ten seconds.
 
@@ -139,12 +111,11 @@ class History:
 
     def set_home(self) -> None:
         """Take the wrist's present position as the forearm's rest position."""
-        recent = self._rows[self._rows[:, _TIME] >= self.end_s - HOME_S, _POSITION] if len(self._rows) else self._rows
-        known = recent[np.isfinite(recent).all(axis=1)] if len(recent) else recent
+        recent = self._rows[self._rows[:, _TIME] >= self.end_s - HOME_S]
+        known = recent[np.isfinite(recent[:, _POSITION]).all(axis=1)]
         if len(known):
-            self._home_mm = np.median(known, axis=0)
-            turned = self._rows[self._rows[:, _TIME] >= self.end_s - HOME_S, _AXES]
-            self._home_rotation = np.nanmedian(turned, axis=0).reshape(3, 3)
+            self._home_mm = np.median(known[:, _POSITION], axis=0)
+            self._home_rotation = np.nanmedian(recent[:, _AXES], axis=0).reshape(3, 3)
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -163,24 +134,28 @@ class History:
         return self._waited_s > 0.0
 
     @property
+    def _newest_row(self) -> FloatArray:
+        return self._rows[-1] if len(self._rows) else np.full(_COLUMNS, math.nan)
+
+    @property
     def angles_deg(self) -> FloatArray:
         """Newest deviation, flexion and pronation-supination (3,)."""
-        return self._rows[-1, _ANGLES] if len(self._rows) else np.full(3, math.nan)
+        return self._newest_row[_ANGLES]
 
     @property
     def sds_deg(self) -> FloatArray:
         """Standard deviations of the newest angles (3,)."""
-        return self._rows[-1, _SDS] if len(self._rows) else np.full(3, math.nan)
+        return self._newest_row[_SDS]
 
     @property
     def status(self) -> TrackStatus:
         """Track status of the newest frame; lost before the first."""
-        return TrackStatus(int(self._rows[-1, _STATUS])) if len(self._rows) else TrackStatus.LOST
+        return TrackStatus(int(self._newest_row[_STATUS])) if len(self._rows) else TrackStatus.LOST
 
     @property
     def speeds(self) -> FloatArray:
         """Newest linear speed in mm/s and angular speed in degrees per second (2,)."""
-        return self._rows[-1, _SPEEDS] if len(self._rows) else np.full(2, math.nan)
+        return self._newest_row[_SPEEDS]
 
     def speed_series(self, column: int) -> Series:
         """Return linear (0) or angular (1) speed over time, without standard deviation."""
@@ -194,21 +169,21 @@ class History:
         )
 
     # --- fingers ------------------------------------------------------------------------------------------
-    def angle_block(self, *, speeds: bool = False) -> AngleBlock:
-        """Return all finger angles over the visible time, or their absolute speeds in degrees per second."""
+    def finger_series(self, *, speeds: bool = False) -> list[Series]:
+        """Return the visible time of all finger angles, or of their absolute speeds in degrees per second."""
         rows, hand, now_s = self._rows, self._fingers, self.end_s
         if not self.has_fingers:
-            none = np.empty((0, len(FINGER_ANGLES)))
-            return AngleBlock(np.empty(0), none, none, none.astype(bool), now_s, MAX_STEP_S)
+            return [Series(np.empty(0), np.empty(0), None, np.empty(0, dtype=bool))] * len(FINGER_ANGLES)
         frame_s = float(rows[-1, _TIME] - rows[0, _TIME]) / max(int(self._index[-1] - self._index[0]), 1)
         every = max(1, int(POINT_INTERVAL_S / frame_s + 0.25)) if frame_s > 0.0 else 1
         longest_s = MAX_STEP_S + 2 * (every - 1) * frame_s  # what is left out at both ends of a gap is none
         part = (rows[:, _TIME] >= now_s - VISIBLE_S) & (self._index % every == 0)
         predicted = ~hand.is_measured[part] | self._weights.is_inferred
-        value, sd = hand.value_deg[part], hand.sd_deg[part]
-        if speeds:
-            value, sd = np.abs(hand.speed_deg_s[part]), np.zeros_like(value)
-        return AngleBlock(rows[part, _TIME] - now_s, value, sd, predicted, now_s, longest_s)
+        values = np.abs(hand.speed_deg_s[part]) if speeds else hand.value_deg[part]
+        return [
+            Series(rows[part, _TIME] - now_s, value, None if speeds else sd, dashed, longest_s, now_s)
+            for value, sd, dashed in zip(values.T, hand.sd_deg[part].T, predicted.T, strict=True)
+        ]
 
     def angle_value(self, index: int) -> tuple[float, float, bool]:
         """Return the newest angle, its standard deviation, and whether its markers have been visible recently."""

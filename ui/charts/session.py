@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,6 @@ from carpus.ui.charts.chart import (
     HoverLabel,
     Plot,
     fit_font,
-    span_html,
 )
 from carpus.ui.charts.panel import Panel, Scale, angle_scale, stack_boxes, time_labels
 from carpus.ui.charts.series import Curve, Series, decimate, find_max_step_s, slice_time
@@ -457,35 +457,37 @@ class SessionChart(ZoomChart):
 
     def _reading_html(self, plot: SessionPlot, key: int, values: Sequence[Value], most: int) -> str:
         """Return the values beside a panel: one with its name, several as a list or in one line."""
+        if not values:
+            return ""
         scale = self._theme.text_scale
-        if values and not isinstance(plot, HandPlot):
+
+        def span(words: str, token: str, size: float, weight: int) -> str:
+            color, size_px = self.plot_style.color(token).name(), round(size * scale)
+            style = f"color:{color};font-size:{size_px}px;font-weight:{int(weight)}"
+            return f'<span style="{style}">{escape(words)}</span>'
+
+        if not isinstance(plot, HandPlot):
             (value,) = values
             face = fit_font(font(14 * scale, REGULAR), value.name, (SCREEN_MARGINS[2] - 16) * scale)
-            named = span_html(value.name, self.plot_style, "text2", face.pixelSize(), REGULAR)
+            named = span(value.name, "text2", face.pixelSize() / scale, REGULAR)
             if not math.isfinite(value.value_deg):
                 return named
-            angle = span_html(numbers.format_degrees(value.value_deg), self.plot_style, "text", 20 * scale, SEMIBOLD)
-            sd = span_html(numbers.format_sd(value.sd_deg), self.plot_style, "text2", 14 * scale, MEDIUM)
-            return f"{named}<br>{angle} {sd}"
-        finger = plot.finger if isinstance(plot, HandPlot) else 0
+            angle = span(numbers.format_degrees(value.value_deg), "text", 20, SEMIBOLD)
+            return f"{named}<br>{angle} {span(numbers.format_sd(value.sd_deg), 'text2', 14, MEDIUM)}"
         pitch = self.plots[1].panel.box.top() - self.plots[0].panel.box.top() if len(self.plots) > 1 else math.inf
-        in_a_line = isinstance(plot, HandPlot) and not finger and 18.0 * scale * most > pitch
+        in_a_line = not plot.finger and 18.0 * scale * most > pitch
         out = []
         for value in values:
             weight, token = (MEDIUM, "text2") if value.is_occluded else (SEMIBOLD, "text")
-            stroke = span_html(
-                "- -" if value.is_occluded else "\N{EM DASH}", self.plot_style, value.token, 14 * scale, SEMIBOLD
-            )
             if in_a_line:
-                text, stroke = numbers.format_degrees(value.value_deg), ""
-                out.append(span_html(text, self.plot_style, value.token, 12 * scale, weight))
-            elif finger and key == 1:
-                text = format_spread(value.value_deg, finger)
-                below = f"<br>{span_html(numbers.format_sd(value.sd_deg), self.plot_style, token, 12 * scale, MEDIUM)}"
-                below = below if math.isfinite(value.value_deg) else ""
-                out.append(f"{stroke} {span_html(text, self.plot_style, token, 14 * scale, weight)}{below}")
-            else:
-                out.append(f"{stroke} {span_html(value.display_text, self.plot_style, token, 14 * scale, weight)}")
+                out.append(span(numbers.format_degrees(value.value_deg), value.token, 12, weight))
+                continue
+            is_spread = plot.finger and key == 1
+            words = format_spread(value.value_deg, plot.finger) if is_spread else value.display_text
+            stroke = span("- -" if value.is_occluded else "\N{EM DASH}", value.token, 14, SEMIBOLD)
+            out.append(f"{stroke} {span(words, token, 14, weight)}")
+            if is_spread and math.isfinite(value.value_deg):
+                out.append(span(numbers.format_sd(value.sd_deg), token, 12, MEDIUM))
         return ("&nbsp; " if in_a_line else "<br>").join(out)
 
     def hover(self, position: QPointF | None) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSizeF
@@ -38,12 +37,12 @@ def place_label(
             if any(_is_crossed(plate, line) for line in lines):
                 continue
             end = _closest_point(plate, center)
-            own = _distance(end, center)
+            own = QLineF(end, center).length()
             if not far:
-                if any(_distance(_closest_point(plate, other), other) <= own for other in others):
+                if any(QLineF(_closest_point(plate, other), other).length() <= own for other in others):
                     continue
                 return plate, None
-            if any(_distance(_project_point(center, end, other), other) <= radius_px for other in others):
+            if any(QLineF(_project_point(center, end, other), other).length() <= radius_px for other in others):
                 continue
             line = QLineF(center + (end - center) * (radius_px / own), end)
             if any(_are_crossing(line, other) for other in lines) or any(
@@ -80,10 +79,6 @@ def _is_crossed(box: QRectF, line: QLineF) -> bool:
     corners = (inner.topLeft(), inner.topRight(), inner.bottomRight(), inner.bottomLeft())
     edges = [QLineF(a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True)]
     return inner.contains(line.p1()) or inner.contains(line.p2()) or any(_are_crossing(line, edge) for edge in edges)
-
-
-def _distance(a: QPointF, b: QPointF) -> float:
-    return math.hypot(a.x() - b.x(), a.y() - b.y())
 
 
 def _closest_point(plate: QRectF, point: QPointF) -> QPointF:
