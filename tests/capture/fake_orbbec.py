@@ -1,13 +1,12 @@
 """OrbbecSDK without a camera: its own player, in place of the bus, plays a recording made here.
 
 The recording is a ROS bag as the library stores it, written from the format's description, so that pictures, lenses
-and unplugging are the library's own. What happens to the camera is told by files in a folder: ``unplugged`` (it is
-taken away, and not found), ``crash`` (the driver takes its process down).
+and unplugging are the library's own. The camera is taken away, and not found, while there is
+a file ``unplugged`` in a folder.
 """
 
 from __future__ import annotations
 
-import os
 import struct
 import threading
 import time
@@ -157,9 +156,6 @@ class FakeContext:
 
     def _watch(self, changed: Callable[[Any, Any], None]) -> None:
         while not (self._folder / "unplugged").exists():
-            if (self._folder / "crash").exists():
-                (self._folder / "crash").unlink()
-                os.abort()
             time.sleep(0.01)
         changed(FakeDeviceList(self._devices), FakeDeviceList({}))
 

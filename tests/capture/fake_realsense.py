@@ -12,6 +12,7 @@ import os
 import threading
 import time
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -53,12 +54,8 @@ class FakeCamera:
             (self.color, rs.option.white_balance, 2800, 6500, 4600),
         ):
             reach = rs.option_range()
-            reach.min, reach.max, reach.step, reach.default = (
-                low,
-                high,
-                10 if option == rs.option.white_balance else 1,
-                value,
-            )
+            reach.min, reach.max, reach.default = low, high, value
+            reach.step = 10 if option == rs.option.white_balance else 1
             sensor.add_option(option, reach, True)
         towards = rs.extrinsics()
         towards.rotation, towards.translation = [1, 0, 0, 0, 1, 0, 0, 0, 1], [shift_m, 0.0, 0.0]
@@ -110,20 +107,13 @@ def _send_all(camera: FakeCamera, folder: Path, _held: object) -> None:
     color = np.tile(np.linspace(40, 120, WIDTH)[None, :, None], (HEIGHT, 1, 3))
     depth = np.full((HEIGHT, WIDTH), NEAR_MM, np.uint16)
     depth[:, :EDGE_PX] = 0
-    for number in _numbers():
+    for number in count(1):
         if (folder / "crash").exists():
             (folder / "crash").unlink()
             os.abort()
         if not (folder / "unplugged").exists():
             camera.send(number, camera.lit(color), depth, 50_000.0 + number * PERIOD_MS)
         time.sleep(PERIOD_MS / 1000.0)
-
-
-def _numbers() -> Iterator[int]:
-    number = 0
-    while True:
-        number += 1
-        yield number
 
 
 def record(path: Path, frames: Iterator[Any], fx: float = 525.0) -> None:

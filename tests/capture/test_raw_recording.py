@@ -252,6 +252,8 @@ def test_raw_writer_frames_are_in_the_file_at_once(tmp_path: Path) -> None:
         writer.append_frame(frame)
         recording = RawRecording(writer.path)
         assert (recording.is_complete, len(list(recording.frames()))) == (False, count)
+    last = np.abs(next(reversed(list(recording.frames()))).color_rgb.astype(int) - frame.color_rgb)
+    assert 0.0 < last.mean() < 2.5, "as JPEG"
     writer.abandon()
 
 

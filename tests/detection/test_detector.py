@@ -20,7 +20,7 @@ from carpus.core.detection.appearance import (
     to_hsv,
 )
 from carpus.core.detection.blobs import find_components
-from carpus.core.detection.detector import Detector
+from carpus.core.detection.detector import MAX_SEARCH_RADIUS_PX, Detector
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import Detections, FloatArray, Frame, Region
 from tests.detection.pictures import (
@@ -67,14 +67,11 @@ def all_found(found: Detections, true_px: FloatArray, within_px: float = 0.5) ->
     return len(found) == len(true_px) and bool(np.abs(match_blobs(found.pixel, true_px)).max() < within_px)
 
 
-@pytest.mark.parametrize(("skin", "light"), [(DARK_SKIN, 0.4), (SKIN, 1.25)])
 @pytest.mark.parametrize("paper", PAPERS)
-def test_detector_centres_are_accurate_to_a_tenth_of_a_pixel(
-    paper: str, skin: tuple[int, int, int], light: float
-) -> None:
+def test_detector_centres_are_accurate_to_a_tenth_of_a_pixel(paper: str) -> None:
     """Any paper, any skin, dim and bright, with colour halved across as the camera does."""
-    rng = np.random.default_rng(1)
-    look = Look(paper=PAPERS[paper], skin=skin, light=light)
+    rng, is_dim = np.random.default_rng(1), paper in ("blue", "red", "yellow")
+    look = Look(PAPERS[paper], DARK_SKIN if is_dim else SKIN, light=0.4 if is_dim else 1.25)
     detector = Detector(learn(look, rng)[0], CAMERA, SETTINGS)
     errors = []
     for _ in range(4):
@@ -98,26 +95,11 @@ def test_detector_shading_does_not_shift_centres() -> None:
     assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.05
 
 
-def test_detector_areas_and_depths_match_the_discs() -> None:
-    found = build_detector().detect(seen(3))
-    assert found.area_px == pytest.approx(np.pi * RADIUS_PX**2, rel=0.1)
-    assert (found.similarity > 0.0).all()
-    assert (found.similarity <= 1.0 + 1e-9).all()
-    assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
-    assert (found.depth_sd_m > 3e-4).all()
-    assert (found.depth_sd_m < 0.004).all()
-
-
 def test_detector_without_depth_gives_nan_depths() -> None:
-    found = build_detector().detect(replace(seen(17), depth_raw=None))
-    assert all_found(found, PALM_PX)
+    found = build_detector().detect(replace(seen(17, look=Look(light=0.5)), depth_raw=None))
+    assert all_found(found, PALM_PX), "in other light than was learnt, too"
     assert np.isnan(found.depth_m).all()
     assert np.isnan(found.depth_sd_m).all()
-
-
-@pytest.mark.parametrize("light", [0.5, 1.2])
-def test_detector_tolerates_other_light(light: float) -> None:
-    assert all_found(build_detector().detect(seen(11, look=Look(light=light))), PALM_PX)
 
 
 @pytest.mark.parametrize(("gap_px", "direction_deg"), [(-0.5, 35.0), (-0.5, 90.0), (0.8, 0.0)])
@@ -179,29 +161,9 @@ def test_search_region_holds_every_disc_and_little_more() -> None:
     wider = detector.compute_search_region(PALM_PX, 16.0 * covariance, np.full(6, DISTANCE_M))
     assert wider.left < region.left
     assert wider.bottom > region.bottom
-
-
-def test_search_region_large_covariance_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("carpus.core.detection.detector.MAX_SEARCH_RADIUS_PX", 60.0)
-    settings = DetectionSettings()
-    detector = Detector(learn(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
-    middle = np.array([[0.5 * CAMERA.width_px, 0.5 * CAMERA.height_px]])
-    found = [
-        detector.compute_search_region(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M]))
-        for sd_px in (5.0, 1e4)
-    ]
-    assert found[0].right - found[0].left < found[1].right - found[1].left, "at 5 pixels it is not the limit"
-    disc_px = CAMERA.fx_px * settings.marker_radius_m / DISTANCE_M
-    reach_px = 60.0 + 2.2 * disc_px + 3.0
-    assert found[1].right - found[1].left == pytest.approx(2.0 * reach_px, abs=2.5)
-    assert found[1].bottom - found[1].top == pytest.approx(2.0 * reach_px, abs=2.5)
-
-
-def test_search_region_nan_is_an_error() -> None:
-    pixel = PALM_PX.copy()
-    pixel[-1, 0] = np.nan
-    with pytest.raises(ValueError, match="NaN"):
-        build_detector().compute_search_region(pixel, np.broadcast_to(np.eye(2), (6, 2, 2)), np.full(6, DISTANCE_M))
+    disc_px = CAMERA.fx_px * SETTINGS.marker_radius_m / DISTANCE_M
+    lost = detector.compute_search_region(np.array([[160.0, 120.0]]), 1e8 * np.eye(2)[None], np.array([DISTANCE_M]))
+    assert lost.right - lost.left == pytest.approx(2.0 * (MAX_SEARCH_RADIUS_PX + 2.2 * disc_px + 3.0), abs=2.5)
 
 
 def test_detector_depth_of_another_size_is_an_error() -> None:
@@ -259,10 +221,9 @@ def test_detector_empty_image_gives_no_blobs() -> None:
     assert len(build_detector().detect(frame(np.full((240, 320, 3), 255, dtype=np.uint8), None))) == 0
 
 
-@pytest.mark.parametrize("times", [3])
-def test_detector_scales_with_resolution_and_distance(times: int) -> None:
+def test_detector_scales_with_resolution_and_distance() -> None:
     """Discs wider than the sensor's own window, as in 1280 x 1024 pictures or with a hand nearer than 0.34 m."""
-    size = (CAMERA.width_px * times, CAMERA.height_px * times)
+    times, size = 3, (CAMERA.width_px * 3, CAMERA.height_px * 3)
     camera = Camera(525.0 * times, 525.0 * times, 159.5 * times, 119.5 * times, *size)
     small = frame(picture(PALM_PX, BLUE, np.random.default_rng(21)), depth_picture())
     assert small.depth_raw is not None

@@ -24,12 +24,7 @@ from carpus.core.calibration.camera.printed_sheet import PAPER_MM, Paper, SheetB
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.errors import BoardNotVisible, BoardUnfit, BoardViewsTooSimilar, CarpusFault
 from carpus.core.model.types import FloatArray, Frame
-from tests.studio import (
-    LENS,
-    Studio,
-    build_held_sheet,
-    render_texture,
-)
+from tests.studio import LENS, Studio, build_held_sheet, render_texture
 
 
 def check_lens(made: CameraCalibration, middle_px: float) -> None:
@@ -73,9 +68,8 @@ def shift_corners(view: BoardView, pixel: FloatArray) -> BoardView:
 
 
 def bend_board(view: BoardView) -> BoardView:
-    return shift_corners(
-        view, view.detected.pixel + 8.0 * np.sin(np.arange(len(view.detected.pixel)) * 2.1)[:, None] * [1.0, -1.0]
-    )
+    pixel = view.detected.pixel
+    return shift_corners(view, pixel + 8.0 * np.sin(np.arange(len(pixel)) * 2.1)[:, None] * [1.0, -1.0])
 
 
 UNFIT: dict[str, tuple[Callable[[list[BoardView]], list[BoardView]], type[CarpusFault], str | None]] = {
@@ -121,18 +115,14 @@ def test_view_collector_rejected_frame_has_a_reason(shown: list[Frame]) -> None:
 def test_next_instruction_names_what_is_missing(gathered: ViewCollector) -> None:
     whole = gathered.coverage
     assert assess_views([], 640, 480).next_instruction() == "Move the board to the top left"
-    upright = [view for view in gathered.views if view.nearer_side != "left" and view.nearer_side != "right"]
-    assert (
-        replace(whole, sides=assess_views(upright, 640, 480).sides).next_instruction()
-        == "Tilt the board: left edge nearer"
-    )
-    assert replace(whole, nearest_m=0.5, farthest_m=0.5).next_instruction() == "Move the board further away"
-    assert replace(whole, nearest_m=0.8, farthest_m=0.8).next_instruction() == "Move the board nearer"
-    assert (
-        replace(whole, view_count=WANTED_VIEWS - 1).next_instruction()
-        == "Show the board in other positions and at other tilts"
-    )
-    assert replace(whole, view_count=WANTED_VIEWS).next_instruction() is None
+    for change, instruction in (
+        ({"sides": frozenset({"top", "bottom"})}, "Tilt the board: left edge nearer"),
+        ({"nearest_m": 0.5, "farthest_m": 0.5}, "Move the board further away"),
+        ({"nearest_m": 0.8, "farthest_m": 0.8}, "Move the board nearer"),
+        ({"view_count": WANTED_VIEWS - 1}, "Show the board in other positions and at other tilts"),
+        ({"view_count": WANTED_VIEWS}, None),
+    ):
+        assert replace(whole, **change).next_instruction() == instruction  # type: ignore[arg-type]
 
 
 def test_board_view_nearer_side_is_right(studio: Studio) -> None:

@@ -44,7 +44,7 @@ NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)
 def shown() -> list[Frame]:
     """The card as a camera with a right depth sees it, every half second."""
     studio, scene = Studio(seed=8, depth_scale_error=0.0), card_scene()
-    return [studio.frame(scene, k, 100.0 + 0.5 * k) for k in range(8)]
+    return [studio.frame(scene, k, 100.0 + 0.5 * k) for k in range(6)]
 
 
 def scale_depth(frames: Sequence[Frame], share: float) -> list[Frame]:
@@ -89,21 +89,17 @@ def test_card_live_counts_steady_frames_only(shown: list[Frame]) -> None:
         watch.compute_reading("card")
 
 
-@pytest.mark.parametrize("share", [0.98, 1.02])
-def test_card_depth_error_of_two_percent_is_out_of_tolerance(shown: list[Frame], share: float) -> None:
-    reading = measure_card(scale_depth(shown, share), LENS, "card")
-    assert reading.scale == pytest.approx(share, abs=0.004)
+def test_card_depth_or_focal_length_error_is_out_of_tolerance(shown: list[Frame]) -> None:
+    reading = measure_card(scale_depth(shown, 0.98), LENS, "card")
+    assert reading.scale == pytest.approx(0.98, abs=0.004)
     assert not reading.has_valid_lengths
     assert reading.has_valid_angles, "a pure scale leaves angles right"
-
-
-def test_card_wrong_focal_length_is_out_of_tolerance(shown: list[Frame]) -> None:
     wide = Camera(1.05 * LENS.fx_px, 1.05 * LENS.fy_px, LENS.cx_px, LENS.cy_px, distortion=LENS.distortion)
     assert not measure_card(shown, wide, "card").has_valid_lengths
 
 
 def test_card_incomplete_is_refused(shown: list[Frame]) -> None:
-    hidden = [replace(frame, color_rgb=frame.color_rgb[::1].copy()) for frame in shown]
+    hidden = [replace(frame, color_rgb=frame.color_rgb.copy()) for frame in shown]
     for frame in hidden:
         frame.color_rgb[:200] = 230
     with pytest.raises(CardNotVisible, match=f"0 of {len(shown)}"):
