@@ -47,54 +47,49 @@ def encode(lines: tuple[str, ...], encoding: str) -> bytes:
     return b"".join(b"%03d%s\r\n" % (len(body) + 5, body) for body in bodies)
 
 
-def test_request_with_ansi_letters_gives_patient_and_addresses() -> None:
-    request = parse_request(encode(MUSTERMANN, "iso8859-1"))
-
-    assert request == GdtRequest(
-        "12345", "Mustermann", "Jürg", date(1945, 10, 30), "male", sender="PRAX_AIS", receiver="CARPUS_1",
-        device_field="ALLG", character_set="3",
-    )  # fmt: skip
+def with_field(field: str, line: str) -> tuple[str, ...]:
+    return tuple(line if old[3:7] == field else old for old in MUSTERMANN)
 
 
-def test_request_without_character_set_is_of_the_ibm_pc() -> None:
-    request = parse_request(encode(OLD_SYSTEM, "cp437"))
-
-    assert (request.number, request.last_name, request.birth_date, request.sex) == (
-        "0000002191", "Müller", date(1922, 6, 30), "female",
-    )  # fmt: skip
+PATIENT = GdtRequest(
+    "12345", "Mustermann", "Jürg", date(1945, 10, 30), "male", sender="PRAX_AIS", receiver="CARPUS_1",
+    device_field="ALLG", character_set="3",
+)  # fmt: skip
 
 
-@pytest.mark.parametrize("end", [b"", b"\r\n", b"\x1a", b"\x00\x00"])
-def test_request_with_unix_line_ends_or_filled_up_is_read(end: bytes) -> None:
-    content = encode(MUSTERMANN, "iso8859-1").replace(b"\r\n", b"\n").rstrip(b"\n") + end
-
-    assert parse_request(content).last_name == "Mustermann"
-
-
-def test_request_with_a_last_field_that_ends_in_blanks_is_read() -> None:
-    assert parse_request(encode((*MUSTERMANN, "0183999ABC   "), "iso8859-1")).number == "12345"
-
-
-def test_request_with_an_apostrophe_of_windows_has_it() -> None:
-    lines = tuple("0163101O’Neill" if line[3:7] == "3101" else line for line in MUSTERMANN)
-
-    assert parse_request(encode(lines, "cp1252")).last_name == "O’Neill"
+@pytest.mark.parametrize(
+    ("content", "patient"),
+    [
+        (encode(MUSTERMANN, "iso8859-1"), PATIENT),
+        *(
+            (encode(MUSTERMANN, "iso8859-1").replace(b"\r\n", b"\n").rstrip(b"\n") + end, PATIENT)
+            for end in (b"", b"\r\n", b"\x1a", b"\x00\x00")
+        ),
+        (encode((*MUSTERMANN, "0183999ABC   "), "iso8859-1"), PATIENT),
+        (encode(with_field("3101", "0163101O’Neill"), "cp1252"), replace(PATIENT, last_name="O’Neill")),
+        *(
+            (encode(with_field("3103", unknown), "cp1252"), replace(PATIENT, birth_date=None))
+            for unknown in ("0093103", "017310300000000")
+        ),
+        (
+            encode(OLD_SYSTEM, "cp437"),
+            GdtRequest("0000002191", "Müller", "Agnes", date(1922, 6, 30), "female", device_field="BDT"),
+        ),
+    ],
+    ids=[
+        "ANSI", "line feeds", "last line end", "end of file", "filled up", "ends in blanks", "apostrophe of Windows",
+        "no birth date", "birth date of zeros", "IBM PC",
+    ],
+)  # fmt: skip
+def test_request_gives_patient_and_addresses(content: bytes, patient: GdtRequest) -> None:
+    assert parse_request(content) == patient
 
 
 @pytest.mark.parametrize("birth", ["31.12.1945", "1121945", "31131945"])
 def test_request_with_an_invalid_birth_date_keeps_it_out_of_the_log(birth: str) -> None:
-    lines = tuple(f"0193103{birth}" if line[3:7] == "3103" else line for line in MUSTERMANN)
-
     with pytest.raises(GdtUnreadable) as caught:
-        parse_request(encode(lines, "cp1252"))
+        parse_request(encode(with_field("3103", f"0193103{birth}"), "cp1252"))
     assert birth not in f"{caught.value} {caught.value.detail} {caught.value.__cause__}"
-
-
-@pytest.mark.parametrize("birth", ["0093103", "017310300000000"])
-def test_request_with_unknown_birth_date_has_none(birth: str) -> None:
-    lines = tuple(birth if line[3:7] == "3103" else line for line in MUSTERMANN)
-
-    assert parse_request(encode(lines, "cp1252")).birth_date is None
 
 
 DAMAGED = {
@@ -167,18 +162,12 @@ def test_result_limited_by_the_view_says_in_which_direction() -> None:
 
 
 @pytest.mark.parametrize("character_set", ["1", "2", "3"])
-def test_result_in_each_character_set_keeps_umlauts(character_set: str) -> None:
-    record = format_result(GdtRequest("1", "Größe", character_set=character_set), WHEN, [])
-
-    assert dict(parse_fields(record)[0])["3101"] == "Größe"
-
-
-@pytest.mark.parametrize("character_set", ["1", "2", "3"])
-def test_result_in_each_character_set_keeps_the_signs_of_a_range(character_set: str) -> None:
-    request, test = GdtRequest("1", character_set=character_set), GdtTest("ARC", "Flexion–extension", 60.0, "°")
+def test_result_in_each_character_set_keeps_umlauts_and_signs_of_a_range(character_set: str) -> None:
+    request = GdtRequest("1", "Größe", character_set=character_set)
+    test = GdtTest("ARC", "Flexion–extension", 60.0, "°")
     fields = dict(parse_fields(format_result(request, WHEN, [test], findings=["≥40 – 0\N{NON-BREAKING HYPHEN}20"]))[0])
 
-    assert (fields["6220"], fields["8411"]) == (">=40 - 0-20", "Flexion-extension")
+    assert (fields["3101"], fields["6220"], fields["8411"]) == ("Größe", ">=40 - 0-20", "Flexion-extension")
 
 
 def test_result_identifiers_are_short_and_each_its_own() -> None:

@@ -15,26 +15,15 @@ from carpus.core.measures.signals import (
     low_pass,
     resample_evenly,
     valid_wrist_angles,
-    view_tilt_rad,
 )
-from carpus.core.model.hand.clinical_angles import rotation_from_angles
 from carpus.core.model.types import FloatArray
-
-RATE = 30.0
-LOOKING_DOWN = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+from tests.measures.ways import RATE, way
 
 
-def min_jerk(start: float, end: float, duration_s: float) -> FloatArray:
-    tau = np.arange(0.0, 1.0, 1.0 / (duration_s * RATE))
-    return start + (end - start) * (10 * tau**3 - 15 * tau**4 + 6 * tau**5)
-
-
-def exercise_deg(tops: list[float], move_s: float = 1.0, hold_s: float = 1.0) -> FloatArray:
-    parts = [np.zeros(30)]
-    for top in tops:
-        hold = np.full(int(hold_s * RATE), top)
-        parts += [min_jerk(0.0, top, move_s), hold, min_jerk(top, 0.0, move_s), np.zeros(20)]
-    return np.concatenate(parts)
+def exercise_deg(tops: list[float]) -> FloatArray:
+    """Up, a second of hold, and down."""
+    parts = [part for top in tops for part in ((0.0, 1.0), (top, 1.0), (0.0, 1.0), (-top, 1.0))]
+    return way([*parts, (0.0, 1.0)])
 
 
 def measure_range(value_deg: FloatArray, valid: FloatArray | None = None) -> MotionRange:
@@ -43,12 +32,6 @@ def measure_range(value_deg: FloatArray, valid: FloatArray | None = None) -> Mot
     both = resample_evenly(t, np.radians(np.column_stack((value_deg, np.ones(len(t))))), valid)
     repetitions = find_repetitions(both.column(0)).repetitions
     return motion_range(low_pass(both.column(0), MAX_CUTOFF_HZ), both.column(1), repetitions)
-
-
-def test_view_tilt_of_known_poses_is_exact() -> None:
-    angles = np.radians([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 50.0, 0.0], [0.0, 0.0, -80.0]])
-    tilt = view_tilt_rad(rotation_from_angles(angles, "right"), LOOKING_DOWN)
-    np.testing.assert_allclose(np.degrees(tilt), [0.0, 0.0, 50.0, 80.0], atol=1e-6)
 
 
 def test_valid_wrist_angles_exclude_uncertain_and_steep_flexion() -> None:
@@ -83,13 +66,13 @@ def test_motion_range_repetition_needs_seven_tenths_visible(share: float, measur
 
 
 def test_motion_range_without_repetitions_covers_the_recording() -> None:
-    found = measure_range(np.concatenate((np.zeros(60), min_jerk(0.0, 7.0, 1.0), np.full(60, 7.0))))
+    found = measure_range(way([(0.0, 2.0), (7.0, 1.0), (0.0, 2.0)]))
     assert found.repetitions == 0
     assert math.degrees(found.arc.mean) == pytest.approx(7.0, abs=0.1)
 
 
 def test_motion_range_hand_leaving_at_the_top_is_limited() -> None:
-    value = np.concatenate((exercise_deg([40.0] * 3), min_jerk(0.0, 80.0, 1.0)))
+    value = np.concatenate((exercise_deg([40.0] * 3), way([(80.0, 1.0)])))
     found = measure_range(value, valid=value <= 45.0)
     assert math.degrees(found.maximum.best) == pytest.approx(40.0, abs=0.5)
     assert measure_range(value[-30:], valid=value[-30:] <= 45.0).top_limited

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from carpus.core.measures.coordination import co_flexion, enslaving_share, measure_tremor, synergy_share
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import low_pass, resample_evenly
-from carpus.core.model.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
+from carpus.core.model.hand.clinical_angles import zyz_with_sd
 from carpus.core.model.types import FloatArray
 from carpus.core.results.measure import Measure
 from carpus.core.results.norms import SHARE_OF_NORMAL, grade_share
@@ -77,19 +77,6 @@ def test_total_active_motion_grades_match_the_reference(share: float, grade: str
     row = Measure("share", "TAM3", SHARE_OF_NORMAL, "share", (share,), share)
     assert grade_share(row) == grade
     assert grade_share(replace(row, is_lower_bound=True)) is None
-
-
-@pytest.mark.parametrize(
-    ("zyx", "isb"),
-    [
-        ((20.0, 60.0, 0.0), (9.8, 61.5, -17.5)),
-        ((-30.0, 40.0, 0.0), (-22.5, 44.1, 20.4)),
-    ],
-)
-def test_isb_angle_order_matches_the_reference(zyx: tuple[float, ...], isb: tuple[float, ...]) -> None:
-    for side in ("right", "left"):
-        pose = rotation_from_angles(np.radians(zyx), side)  # type: ignore[arg-type]
-        assert np.degrees(isb_from_rotation(pose, side)) == pytest.approx(isb, abs=0.06)  # type: ignore[arg-type]
 
 
 def test_zyz_angles_are_given_where_known() -> None:

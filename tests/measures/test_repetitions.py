@@ -40,7 +40,7 @@ def swing_to_one_side(amplitude_deg: float, frequency_hz: float, count: int = 6,
     return np.concatenate((still, *([one] * count), still))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     amplitude=st.floats(8.0, 50.0),
     frequency=st.floats(0.2, 1.0),
@@ -73,20 +73,6 @@ def test_find_repetitions_noise_gives_none(noise: float, seed: int, offset: floa
     found = find_repetitions(make_signal(value))
     assert found.repetitions == ()
     assert found.strokes == ()
-
-
-def test_find_repetitions_are_contiguous_with_one_top_each() -> None:
-    value = swing_to_one_side(60.0, 0.5)
-    signal = make_signal(value)
-    found = find_repetitions(signal)
-    for k, rep in enumerate(found.repetitions):
-        part = signal.crop(rep.start_s, rep.end_s)
-        assert math.degrees(part.value.max()) == pytest.approx(60.0, abs=0.5)
-        assert math.degrees(part.value.min()) == pytest.approx(0.0, abs=0.5)
-        assert rep.valid_share == 1.0
-        if k:
-            assert rep.start_s >= found.repetitions[k - 1].end_s - 1e-9
-    assert found.repetitions[2].end_s - found.repetitions[2].start_s == pytest.approx(2.0, abs=0.1)
 
 
 @pytest.mark.parametrize(("share", "counted"), [(0.27, 6), (0.33, 8)])
@@ -129,7 +115,7 @@ def test_find_repetitions_missing_frames_keep_clear_waves() -> None:
 def test_find_repetitions_later_samples_remove_none(end: str) -> None:
     waves = swing_to_both_sides(15.0, 0.4, count=10)
     after = {
-        "rest": np.zeros(600 * 30),
+        "rest": np.zeros(60 * 30),
         "away": np.full(5 * 30, np.nan),
         "turned over": np.concatenate((np.linspace(0.0, 150.0, 20), np.full(60, 150.0))),
     }[end]

@@ -10,10 +10,8 @@ import numpy as np
 import pytest
 
 from carpus.core.formats.measures_table import build_measure_rows
-from carpus.core.measures.manual_measurements import find_manual_measure
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.results.motion_curves import visible_angle_deg
-from carpus.core.results.norms import wrist_norm
 from carpus.core.results.ranges import LARGEST_SIZE
 from carpus.core.results.repetition_rows import compute_repetitions
 from carpus.core.results.session_results import compute_session_results
@@ -38,16 +36,6 @@ def test_forearm_ranges_count_from_thumb_up(side: str) -> None:
     drawn = wrist_curves(stored).angles_deg[:, 2]
     assert drawn == pytest.approx(np.degrees(stored.motion.angles_rad[:, 2]) - 90.0)
     assert np.nanmax(visible_angle_deg(stored, "pronosupination")) == pytest.approx(highest - 90.0, abs=4.0)
-
-
-def test_manual_measurements_match_forearm_angle() -> None:
-    """A therapist who reads 94 degrees of pronation and Carpus mean the same pose."""
-    figures = figures_once(turned("right"))
-    row = figures.find(*(find_manual_measure("PRONATION").session_measure or ("", "")))
-    assert row is not None
-    norm = wrist_norm("pronation", 2, figures.exercise)
-    assert norm is not None
-    assert norm.low_deg <= row.mean <= find_manual_measure("PRONATION").max_value
 
 
 def test_repetition_table_keeps_angle_of_file() -> None:

@@ -92,8 +92,7 @@ class FingerAngle:
     @property
     def long_name(self) -> str:
         """Name with the finger, such as ``Ring finger, PIP``."""
-        joint = self.kind_name if self.kind == "tam" else to_mid_sentence(self.kind_name)
-        return tr("{finger}, {joint}").format(finger=long_finger_name(str(self.finger)), joint=joint)
+        return _long_name(self)
 
     @property
     def short_name(self) -> str:
@@ -102,14 +101,7 @@ class FingerAngle:
 
     @property
     def range_end_names(self) -> tuple[str, str]:
-        low, high = (f"{format_rounded(abs(value))}°" for value in self.range_deg)
-        if self.is_palmar_abduction:
-            return tr("In the plane of the palm (0°)"), tr("Palmar abduction {angle}").format(angle=high)
-        if self.kind != "spread":
-            return tr("Extended"), tr("Flexed {angle}").format(angle=high)
-        if self.finger == 3:
-            return tr("Ulnar {angle}").format(angle=low), tr("Radial {angle}").format(angle=high)
-        return tr("Adducted {angle}").format(angle=low), tr("Abducted {angle}").format(angle=high)
+        return _end_names(self)
 
 
 # All that can be the large number, finger by finger.
@@ -121,6 +113,22 @@ FINGER_ANGLES: tuple[FingerAngle, ...] = tuple(
 def kind_name(kind: AngleKind | Literal["lift", "ip"]) -> str:
     """Return the name of a kind of angle."""
     return translate_phrase(_KIND_NAMES[kind])
+
+
+def _long_name(angle: FingerAngle) -> str:
+    joint = angle.kind_name if angle.kind == "tam" else to_mid_sentence(angle.kind_name)
+    return tr("{finger}, {joint}").format(finger=long_finger_name(str(angle.finger)), joint=joint)
+
+
+def _end_names(angle: FingerAngle) -> tuple[str, str]:
+    low, high = (f"{format_rounded(abs(value))}°" for value in angle.range_deg)
+    if angle.is_palmar_abduction:
+        return tr("In the plane of the palm (0°)"), tr("Palmar abduction {angle}").format(angle=high)
+    if angle.kind != "spread":
+        return tr("Extended"), tr("Flexed {angle}").format(angle=high)
+    if angle.finger == 3:
+        return tr("Ulnar {angle}").format(angle=low), tr("Radial {angle}").format(angle=high)
+    return tr("Adducted {angle}").format(angle=low), tr("Abducted {angle}").format(angle=high)
 
 
 def spread_side(value_deg: float, finger: int = 0) -> str:

@@ -31,7 +31,7 @@ from tests.ui.printed import count_pages, read_words
 @pytest.fixture(scope="module")
 def session() -> Session:
     """Flexion to and fro, 30 frames a second, all of it tracked."""
-    made = flexing()
+    made = flexing(seconds=26.0)
     return replace(made, status=np.zeros(len(made), dtype=np.int64))
 
 
@@ -92,13 +92,6 @@ def test_compare_whole_turns_agree(session: Session) -> None:
     for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
         found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
         assert all(one.figures_deg.largest_difference < 2.0 for one in found.pairs)
-
-
-def test_compare_given_lag_is_used(session: Session) -> None:
-    found = compare_session(session, other_session(session, 0.0), lag_s=0.4)
-    assert found.shift.is_given
-    assert found.shift.lag_s == 0.4
-    assert next(one for one in found.pairs if one.name == "flexion").figures_deg.sd > 5.0
 
 
 def test_compare_session_with_its_exports_agrees(session: Session, tmp_path: Path) -> None:
@@ -231,10 +224,9 @@ def test_reference_invalid_file_is_refused(name: str, content: bytes, tmp_path: 
 
 
 def test_compare_drift_over_minutes_is_accepted() -> None:
-    time_s = np.arange(0.0, 140.0, 1 / 30)
-    mine = np.sin(np.pi * time_s)
-    there_s = np.arange(0.0, 140.0, 0.01)
-    curves = AlignmentCurves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], ignores_sign=True)
+    time_s, there_s = np.arange(0.0, 70.0, 1 / 30), np.arange(0.0, 70.0, 0.01)
+    mine, other = np.sin(np.pi * time_s), np.sin(np.pi * there_s / 0.98)
+    curves = AlignmentCurves(time_s, mine[:, None], there_s, other[:, None], ignores_sign=True)
     shift = find_shift(curves, 10.0)
     assert abs(shift.match) < MIN_MATCH
     _check_match(Reference(Path("x.mot"), "angles"), curves, with_residual_drift(curves, shift))

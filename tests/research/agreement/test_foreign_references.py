@@ -116,7 +116,7 @@ def write_trc(path: Path, time_s: FloatArray, markers: dict[str, FloatArray]) ->
 
 
 def test_reference_points_of_two_hands_with_zero_gaps_are_read(tmp_path: Path) -> None:
-    made = session()
+    made = session(seconds=26.0)
     time_s = made.timestamp_s - made.timestamp_s[0]
     own = {name: 1e3 * made.markers.position_cam_m[:, k] for k, name in enumerate(PALM_MARKERS)}
     both = {f"R:{name}": place.copy() for name, place in own.items()} | {
@@ -142,7 +142,7 @@ def test_reference_points_of_two_hands_with_zero_gaps_are_read(tmp_path: Path) -
 
 
 def test_compare_residual_between_markers_is_remarked(tmp_path: Path) -> None:
-    made = session()
+    made = session(seconds=26.0)
     own = {name: 1e3 * made.markers.position_cam_m[:, k] for k, name in enumerate(PALM_MARKERS)}
     own["MCP2"], own["MCP5"] = own["MCP5"], own["MCP2"]
     path = write_trc(tmp_path / "r.trc", made.timestamp_s - made.timestamp_s[0], own)
@@ -153,7 +153,7 @@ def test_compare_residual_between_markers_is_remarked(tmp_path: Path) -> None:
 
 
 def test_compare_two_readings_print_pairs(tmp_path: Path) -> None:
-    made, count = session(), 2
+    made, count = session(seconds=26.0), 2
     text = "movement;reading (°)\n" + "flexion;47,5\nextension;49\n".splitlines(keepends=True)[0] * count
     compared = compare_session(made, read_text(tmp_path, text), figures=compute_session_results(made))
     said = "\n".join(format_comparison(compared))
@@ -164,7 +164,7 @@ def test_compare_two_readings_print_pairs(tmp_path: Path) -> None:
 
 def test_reference_without_angles_lists_its_columns(tmp_path: Path) -> None:
     with pytest.raises(ReferenceUnsuited, match="only Knie, Hüfte"):
-        compare_session(session(), read_text(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
+        compare_session(session(seconds=26.0), read_text(tmp_path, "Zeit;Knie;Hüfte\n0,0;1;2\n0,1;2;3\n", "cp1252"))
 
 
 def test_reference_table_separators_are_read(tmp_path: Path) -> None:

@@ -6,9 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy import stats
 
 from carpus.core.research.agreement.statistics import (
     compute_agreement,
@@ -34,6 +33,7 @@ def test_agreement_of_known_differences_is_exact() -> None:
     assert math.isnan(found.cmc)
 
 
+@settings(max_examples=20)
 @given(st.floats(-20, 20), st.integers(0, 1000))
 def test_agreement_constant_offset_is_bias_only(offset: float, seed: int) -> None:
     wave = 30.0 * np.sin(np.linspace(0, 20, 300)) + np.random.default_rng(seed).normal(size=300)
@@ -53,36 +53,6 @@ def test_effective_sample_size_falls_with_autocorrelation() -> None:
     assert len(slow) / 40 < effective_sample_size(slow) < len(slow) / 10
 
 
-def test_icc_interval_has_its_coverage() -> None:
-    rng = np.random.default_rng(11)
-    held = 0
-    for _ in range(200):
-        people = rng.normal(0.0, 3.0, 25)
-        readings = people[:, None] + rng.normal(0.0, 1.0, (25, 2))
-        _, (low, high) = icc_2_1(readings)
-        held += low <= 0.9 <= high
-    assert 180 <= held <= 199
-
-
-@pytest.mark.parametrize("raters", [2, 4])
-def test_icc_3_1_matches_the_variance_table(raters: int) -> None:
-    """ICC(3,1) and its interval by the two-way table, written out (McGraw and Wong 1996, table 7)."""
-    rng = np.random.default_rng(raters)
-    table = rng.normal(0.0, 3.0, (12, 1)) + rng.normal(0.0, 1.0, (12, raters)) + np.arange(raters)
-    n, k = table.shape
-    total = ((table - table.mean()) ** 2).sum()
-    of_rows = k * ((table.mean(axis=1) - table.mean()) ** 2).sum()
-    of_columns = n * ((table.mean(axis=0) - table.mean()) ** 2).sum()
-    rest = (total - of_rows - of_columns) / ((n - 1) * (k - 1))
-    f = of_rows / (n - 1) / rest
-    low = f / stats.f.ppf(0.975, n - 1, (n - 1) * (k - 1))
-    high = f * stats.f.ppf(0.975, (n - 1) * (k - 1), n - 1)
-    icc, interval = icc_3_1(table)
-    assert icc == pytest.approx((f - 1) / (f + k - 1))
-    assert interval == pytest.approx(((low - 1) / (low + k - 1), (high - 1) / (high + k - 1)))
-    assert icc_3_1(table + 10.0 * np.arange(raters))[0] == pytest.approx(icc), "an offset is no disagreement"
-
-
 @pytest.mark.parametrize("correlation", [-0.995, -0.5])
 def test_icc_interval_of_a_negative_icc_has_its_coverage(correlation: float) -> None:
     rng = np.random.default_rng(3)
@@ -96,15 +66,6 @@ def test_icc_interval_of_a_negative_icc_has_its_coverage(correlation: float) -> 
     # Lin's own approximation holds less near -1, where nothing is judged any more.
     assert held[0] >= (180 if correlation > -0.95 else 160)
     assert held[1] >= 180
-
-
-def test_agreement_opposed_curves_are_opposite() -> None:
-    wave = 30.0 * np.sin(np.linspace(0.0, 60.0, 1800))
-    noise = np.random.default_rng(1).normal(0.0, 2.0, 1800)
-    turned = compute_agreement(-wave + noise, wave)
-    assert turned.correlation < -0.99
-    low, high = turned.icc_interval
-    assert -1.0 <= low <= turned.icc <= high <= 1.0
 
 
 def test_pooled_limits_contain_both_variances() -> None:
@@ -131,14 +92,14 @@ def test_pooled_intervals_have_their_coverage() -> None:
     rng = np.random.default_rng(5)
     held = [0, 0, 0]
     true = 1.96 * math.hypot(1.5, 1.0)
-    for _ in range(300):
+    for _ in range(200):
         truth = [rng.normal(60.0, 10.0, int(rng.integers(3, 12))) for _ in range(10)]
         theirs = [one + rng.normal(0.0, 1.5) + rng.normal(0.0, 1.0, len(one)) for one in truth]
         found, _ = compute_pooled_agreement(theirs, truth, waveform=False)
         held[0] += found.bias_interval[0] <= 0.0 <= found.bias_interval[1]
         held[1] += found.lower_interval[0] <= -true <= found.lower_interval[1]
         held[2] += found.upper_interval[0] <= true <= found.upper_interval[1]
-    assert all(275 <= one <= 297 for one in held), held
+    assert all(182 <= one <= 199 for one in held), held
 
 
 @pytest.mark.parametrize("each", [1, 2])
