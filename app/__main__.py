@@ -33,9 +33,8 @@ from carpus.app.command_line import (
 )
 from carpus.app.commands import COMMANDS, MODULES
 from carpus.core.model.errors import CarpusFault, DiskFull
-from carpus.core.model.purpose import PURPOSE
 from carpus.core.platform.durable import DISK_FULL_ERRNOS
-from carpus.core.platform.version import __version__
+from carpus.core.platform.version import PURPOSE, __version__
 
 EXIT_DONE, EXIT_FAILED = 0, 1
 

@@ -33,12 +33,12 @@ from carpus.core.detection.appearance import (
     MAX_CLICK_DISTANCE_RADII,
     DetectionSettings,
     MarkerAppearance,
+    assign_nearest,
     estimate_radius_px,
     learn_appearance,
     to_hsv,
 )
 from carpus.core.detection.detector import Detector
-from carpus.core.model.assignment import assign_nearest
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth

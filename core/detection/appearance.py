@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from carpus.core.compiled.blobs import BlobWindows, mask_paper
 from carpus.core.detection.blobs import Components, find_components, get_stencil
-from carpus.core.model.assignment import assign_nearest
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import ByteImage, FloatArray, Frame
 
@@ -259,3 +258,23 @@ def _match_blobs_to_clicks(click_px: FloatArray, reach_px: FloatArray, blobs: Co
     fits = (blobs.area_px > 0.2 * full) & (blobs.area_px < 3.0 * full)
     distance = np.linalg.norm(click_px[:, None] - blobs.centre_px[None], axis=-1)
     return assign_nearest(np.where(fits, distance, np.inf), reach_px)
+
+
+def assign_nearest(distance: FloatArray, max_distance: FloatArray) -> NDArray[np.int64]:
+    """Return the column assigned one to one to every row (R,), -1 for none, at the least total distance.
+
+    Parameters
+    ----------
+    distance : (R, C)
+        Distance of every row from every column.
+    max_distance : (R,)
+        Assignments that are farther than the row's own are dropped.
+    """
+    from scipy.optimize import linear_sum_assignment  # a third of a second to load
+
+    far = distance > max_distance[:, None]
+    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
+    out = np.full(len(distance), -1, dtype=np.int64)
+    near = ~far[rows, columns]
+    out[rows[near]] = columns[near]
+    return out

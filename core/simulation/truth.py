@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.model.camera import Camera
-from carpus.core.model.hand.clinical_angles import angles_from_rotation, zyz_from_rotation
+from carpus.core.model.hand.clinical_angles import angles_from_rotation, compute_wrist_angles
 from carpus.core.model.types import Detections, FloatArray, KinematicState, Side, TrackedFrame, TrackStatus
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
@@ -192,7 +192,7 @@ def _true_frame(truth: Truth, i: int) -> TrackedFrame:
             angular_velocity_rad_s=truth.angular_velocity_rad_s[i],
             angles_rad=truth.angles_rad[i],
             angles_sd_rad=np.zeros(3),
-            angles_zyz_rad=zyz_from_rotation(truth.rotation_w2_w0[i]),
+            angles_zyz_rad=compute_wrist_angles(truth.rotation_w2_w0[i], spec.hand)[2],
             joint_angles_rad=truth.joint_angles_rad[i],
             joint_angles_sd_rad=np.zeros(joints),
             joint_velocity_rad_s=truth.joint_velocity_rad_s[i],

@@ -170,21 +170,11 @@ def zyz_with_sd(
     return zyz, np.where(is_known, sd, np.nan), total
 
 
-def zyz_from_rotation(rotation_w2_w0: FloatArray) -> FloatArray:
-    """Return ZYZ angles alpha, beta, gamma (..., 3) of the wrist paper; NaN where beta < 3 degrees."""
-    r = rotation_w2_w0
-    beta = np.arctan2(np.hypot(r[..., 0, 2], r[..., 1, 2]), r[..., 2, 2])
-    alpha = np.arctan2(r[..., 1, 2], r[..., 0, 2])
-    gamma = np.arctan2(r[..., 2, 1], -r[..., 2, 0])
-    zyz = np.stack((alpha, beta, gamma), axis=-1)
-    return np.where((beta < ZYZ_MIN_BETA_RAD)[..., None], np.nan, zyz)
-
-
 def compute_wrist_angles(rotation_w2_w0: FloatArray, side: Side) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return clinical angles (3,), their derivatives (3, 3) by a small turn, and ZYZ angles (3,).
 
-    As :func:`angles_from_rotation` and :func:`zyz_from_rotation` for one rotation (3, 3) in plain numbers: arrays of
-    one number cost ten times as much.
+    As :func:`angles_from_rotation` and :func:`angle_rates_matrix` for one rotation (3, 3) in plain numbers: arrays of
+    one number cost ten times as much. Alpha, beta, gamma of the wrist paper are NaN where beta < 3 degrees.
     """
     (r00, _, r02), (r10, _, r12), (r20, r21, r22) = rotation_w2_w0.tolist()
     s = side_sign(side)

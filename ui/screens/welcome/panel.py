@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.model.installation import Finding
-from carpus.core.model.purpose import PURPOSE
+from carpus.core.platform.version import PURPOSE
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, Separator
 from carpus.ui.kit.field import ChoiceRow
