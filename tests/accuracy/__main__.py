@@ -1,4 +1,4 @@
-"""``python -m tests.accuracy``: the errors of Carpus against simulated truth, beside the simplest thing and the bound.
+"""``python -m tests.accuracy``: the errors of Carpus against simulated truth, beside the simplest thing.
 
 Every figure is synthetic: simulated hands, simulated camera. Printed as Markdown, which
 ``python -m tests.accuracy.pages FILE`` puts into the pages.
@@ -18,8 +18,8 @@ from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, make_jobs
 from tests.accuracy.pages import mark_table, rule_table
 from tests.accuracy.readings_table import ReadRow
-from tests.accuracy.runs import Run
 from tests.accuracy.scenarios import GROUPS, Scenario
+from tests.accuracy.scores import Run
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
 from tests.accuracy.table import collect_rows, markdown, read_rows
 

@@ -20,8 +20,8 @@ from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
 from tests.accuracy.jobs import PICTURE_SECONDS
 from tests.accuracy.pages import rule_table
-from tests.accuracy.runs import degrees_between
 from tests.accuracy.scenarios import WRIST
+from tests.accuracy.scores import degrees_between
 from tests.accuracy.sequences import select_scored_frames
 from tests.rendered import read_truth
 

@@ -31,8 +31,8 @@ from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.readings import compute_reading
-from tests.accuracy.runs import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
+from tests.accuracy.scores import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.sequences import label_blobs, longest_untracked_s, names_taken, select_scored_frames, true_names
 from tests.rendered import read_truth
 from tests.simulation.measurements import MeasurementSequence

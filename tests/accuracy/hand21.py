@@ -19,7 +19,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.filter.settings import TrackerSettings
 from tests.accuracy.carpus import calibrate_tracker, detect_sequence, measure_session, step_tracker
 from tests.accuracy.readings import Reading, compute_reading
-from tests.accuracy.runs import Mode, degrees_between, longest_s
+from tests.accuracy.scores import Mode, degrees_between, longest_s
 from tests.accuracy.sequences import names_taken, select_scored_frames, true_names
 from tests.rendered import read_truth
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence

@@ -22,7 +22,7 @@ from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import rule_table
 from tests.accuracy.readings import mean, rms
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
-from tests.accuracy.runs import Mode
+from tests.accuracy.scores import Mode
 
 MOST_RMSE_DEG = {
     "joints": {"MCP flexion": 2.5, "PIP flexion": 3.0, "DIP flexion": 3.0},

@@ -14,9 +14,8 @@ from tqdm import tqdm
 
 from carpus.core.simulation.recording import render_cached
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
-from tests.accuracy.informed import run_informed
-from tests.accuracy.runs import Mode, Run
 from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
+from tests.accuracy.scores import Mode, Run
 from tests.accuracy.simplest import simplest_run
 from tests.simulation.measurements import measurement_sequence
 
@@ -32,9 +31,8 @@ class Job:
     mode: Mode
 
 
-def run_job(job: Job, *, bound: bool = True) -> list[Run]:
-    """Carpus, the simplest thing and, unless nobody asks for it, the ``bound`` on one recording."""
-    bound = bound and job.scenario.has_bound
+def run_job(job: Job) -> list[Run]:
+    """Carpus and the simplest thing on one recording."""
     with threadpool_limits(1):
         if job.mode == "blobs":
             sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
@@ -45,9 +43,7 @@ def run_job(job: Job, *, bound: bool = True) -> list[Run]:
             folder = render_cached(spec)
             carpus, sequence, begin_s = run_on_pictures(job.scenario.name, spec, folder)
             simplest = simplest_run(job.scenario, sequence, begin_s, folder)
-        if not bound:
-            return [carpus, simplest]
-        return [carpus, simplest, run_informed(job.scenario, sequence, begin_s, job.mode)]
+        return [carpus, simplest]
 
 
 def make_jobs(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: int = REPORT_SEEDS) -> list[Job]:

@@ -26,7 +26,7 @@ class Scenario:
     ``options`` and ``trouble`` go to every :class:`RecordingSpec`; ``speeds_hz`` is the range from which each seed
     draws its repetitions a second; ``columns`` names the column of each angle compared (several may share one);
     ``pool`` is the pooled row that it counts in; ``times_seeds`` recordings for every seed asked for; ``pictures``:
-    also by rendered pictures, where what they show matters; ``has_bound``: also the bound.
+    also by rendered pictures, where what they show matters.
     """
 
     name: str
@@ -36,7 +36,6 @@ class Scenario:
     pool: str | None = None
     times_seeds: int = 1
     pictures: bool = False
-    has_bound: bool = True
     trouble: dict[str, Any] = field(default_factory=lambda: dict(USUAL_TROUBLE))
 
     def spec(self, seed: int, seconds: float) -> RecordingSpec:

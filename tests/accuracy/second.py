@@ -21,7 +21,7 @@ from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import mark_table
 from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, compute_reading_of_frames
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
-from tests.accuracy.runs import degrees_between
+from tests.accuracy.scores import degrees_between
 from tests.accuracy.sequences import enough_inside, label_blobs, names_taken
 from tests.second_patient.motions import ROWS, Row, make_motion
 from tests.second_patient.recording import cache_recording, clear_px, make_take

@@ -19,9 +19,7 @@ _EXERCISE_HZ = (0.25, 0.5)
 
 
 def _wrist(name: str, **options: Any) -> Scenario:
-    return Scenario(
-        name, {**DRAWN, **options}, _EXERCISE_HZ, trouble=dict(USUAL_TROUBLE), has_bound=False, pictures=True
-    )
+    return Scenario(name, {**DRAWN, **options}, _EXERCISE_HZ, trouble=dict(USUAL_TROUBLE), pictures=True)
 
 
 def _hand(name: str, *motions: str, **options: Any) -> HandScenario:

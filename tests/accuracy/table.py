@@ -10,15 +10,13 @@ import numpy as np
 from carpus.core.model.types import FloatArray
 from tests.accuracy.pages import rule_table
 from tests.accuracy.readings_table import ReadRow
-from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, Mode, Run
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.scores import Score, score
+from tests.accuracy.scores import CARPUS, SIMPLEST, Mode, Run, Score, score
 
 _METHODS: tuple[tuple[str, str, bool], ...] = (
     ("Carpus, live", CARPUS, False),
     ("Carpus, looking back", CARPUS, True),
     ("simplest thing", SIMPLEST, False),
-    ("bound, live", INFORMED, False),
 )
 _NONE = "-"
 
@@ -77,9 +75,8 @@ def _scores(row: Row) -> Iterator[tuple[str, Score]]:
 def markdown(rows: Sequence[Row]) -> str:
     """One line for every row: RMSE of all methods, and how sure Carpus was of angles and names."""
     head = [
-        "row", "recordings", "live", "live, 95th percentile", "looking back", "simplest thing", "bound",
-        "RMSE / bound", "within 2 sd, %", "mean sd / RMSE", "tracked, %", "wrong, %", "longest swap, s",
-        "back after, s",
+        "row", "recordings", "live", "live, 95th percentile", "looking back", "simplest thing", "within 2 sd, %",
+        "mean sd / RMSE", "tracked, %", "wrong, %", "longest swap, s", "back after, s",
     ]  # fmt: skip
     lines = [head]
     for row in rows:
@@ -91,11 +88,10 @@ def markdown(rows: Sequence[Row]) -> str:
         cells = [name, str(live.recordings), _three(live.rmse), _three(live.p95)]
         cells += [
             _three(found[label].rmse) if label in found else _NONE
-            for label in ("Carpus, looking back", "simplest thing", "bound, live")
+            for label in ("Carpus, looking back", "simplest thing")
         ]
-        bound = found.get("bound, live")
         cells += [
-            _NONE if bound is None else _three(live.rmse / bound.rmse), _three(live.inside, 0, 100.0),
+            _three(live.inside, 0, 100.0),
             _three(live.sd_over_rmse), f"{100 * live.tracked:.1f}", f"{100 * live.wrong:.2f}",
             f"{live.longest_wrong_s:.1f}", f"{live.longest_untracked_s:.1f}",
         ]  # fmt: skip
