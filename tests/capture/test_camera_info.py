@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -117,11 +119,22 @@ def test_camera_info_invalid_value_is_named_in_fault(path: Path, old: str, new: 
     assert caught.value.subject == str(path)
 
 
-@pytest.mark.parametrize("content", [b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00", b"[" * 1_500, b"#" * 2_000_000])
+@pytest.mark.parametrize("content", [b"just words", b"- 1\n- 2\n", b"\xff\xfe\x00", b"#" * 2_000_000])
 def test_camera_info_other_content_raises(path: Path, content: bytes) -> None:
     path.write_bytes(content)
     with pytest.raises(CameraFileUnreadable):
         read_camera_info(path)
+
+
+def test_camera_info_nested_without_end_raises(path: Path) -> None:
+    path.write_text("[" * 300)
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(len(inspect.stack(0)) + 150)  # a thousand deep takes seconds
+    try:
+        with pytest.raises(CameraFileUnreadable, match="not YAML"):
+            read_camera_info(path)
+    finally:
+        sys.setrecursionlimit(limit)
 
 
 def test_camera_info_existing_file_is_kept(path: Path) -> None:

@@ -168,17 +168,6 @@ def test_open_error_tells_the_cause(connected: list[UsbCamera], reason: str, fau
     assert type(failed) is fault
 
 
-def test_choose_mode_of_an_xtion_prefers_vga() -> None:
-    offered = [
-        VideoMode(code, width, height, fps)
-        for code in (PixelFormat.RGB888, PixelFormat.YUV422)
-        for width, height, fps in ((320, 240, 30), (320, 240, 60), (640, 480, 30), (1280, 1024, 30))
-    ]
-    best = openni2_camera.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
-    assert best == VideoMode(PixelFormat.RGB888, 640, 480, 30)
-    assert openni2_camera.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
-
-
 def test_camera_from_field_of_view_has_its_focal_length() -> None:
     # the angles an Asus Xtion tells: f = 570.34 px
     camera = camera_from_field_of_view((640, 480), (1.02260, 0.79662))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from importlib.metadata import PackageNotFoundError
 from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,7 +15,6 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.devices import orbbec
-from carpus.core.capture.devices.cameras import open_camera, require_package
 from carpus.core.capture.devices.capture_process import CameraConfig
 from carpus.core.capture.devices.orbbec import (
     choose_streams,
@@ -25,7 +23,6 @@ from carpus.core.capture.devices.orbbec import (
     import_sdk,
 )
 from carpus.core.capture.devices.process_camera import ProcessCamera
-from carpus.core.capture.doctor import check_udev_rules
 from carpus.core.model.depth_sensor import AZURE_KINECT
 from carpus.core.model.errors import (
     CameraBusy,
@@ -33,10 +30,7 @@ from carpus.core.model.errors import (
     CameraMissing,
     CameraUnsuited,
     CarpusFault,
-    ExtraMissing,
 )
-from carpus.core.model.fault_text import format_fault_line
-from carpus.core.model.installation import Finding
 from tests.capture import fake_orbbec
 from tests.capture.fake_orbbec import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, FakeDeviceList
 from tests.capture.reconnection import assert_reconnects
@@ -89,22 +83,6 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, notices: list[Carp
             assert lens.backproject(seen, np.array([depth_m]))[0, 0] == pytest.approx(edge_m, abs=2 * depth_m / 525.0)
     assert_reconnects(camera, frames, first, notices, tmp_path / "unplugged")
     assert notices[0].detail == "unplugged"
-
-
-def test_orbbec_doctor_checks_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert orbbec.KIND.check_driver(True, True) == Finding("Orbbec driver", "good", require_package(orbbec.PACKAGE))
-    assert orbbec.check_firmware_and_usb({"usb": "2.1"})[0].state == "warning"
-    (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.udev_rules)
-    assert check_udev_rules(orbbec.KIND, (tmp_path,)).state == "good"
-
-    def missing(name: str) -> str:
-        raise PackageNotFoundError(name)
-
-    monkeypatch.setattr("importlib.metadata.version", missing)
-    assert orbbec.KIND.check_driver(True, False) is None
-    with pytest.raises(ExtraMissing) as notices:
-        open_camera(f"orbbec:{SERIAL}")
-    assert format_fault_line(notices.value).endswith("-m pip install --no-deps pyorbbecsdk2”. (C-001)")
 
 
 def test_orbbec_stand_ins_match_library() -> None:

@@ -69,11 +69,6 @@ def test_paced_source_close_ends_wait_and_closes_source() -> None:
     source.close()
 
 
-def test_paced_source_can_be_played_again() -> None:
-    source = PacedSource(Stored(gap_s=0.001))
-    assert [one.index for one in source.frames()] == [one.index for one in source.frames()]
-
-
 STILL, TOTAL = 6, 15
 
 

@@ -1,4 +1,4 @@
-"""Raw recordings: what goes in comes out, whatever kills the writer or gnaws at the file."""
+"""Raw recordings and their pictures in tiles: what goes in comes out, whatever gnaws at the file."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import struct
 import time
 import zlib
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,13 @@ import cv2
 import numpy as np
 import pytest
 
+from carpus.core.capture.files.image_codec import (
+    TILE_PX,
+    TiledImage,
+    decode_color,
+    encode_color,
+    pack_tiles,
+)
 from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _pack_record, is_raw_recording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import Camera
@@ -30,7 +38,7 @@ from carpus.core.model.errors import (
     RecordingMissing,
     RecordingUnreadable,
 )
-from carpus.core.model.types import Frame
+from carpus.core.model.types import ByteImage, Frame, Region
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 from tests.capture.small_disk import disk_full_at
 
@@ -350,3 +358,58 @@ def test_raw_recording_any_altered_byte_gives_no_wrong_image(tmp_path: Path) -> 
             assert recording.info.camera == CAMERA
         except CarpusFault:
             continue
+
+
+TILED_WIDTH, TILED_HEIGHT = 250, 130
+COLOR, DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
+
+
+def noisy_color() -> ByteImage:
+    return np.random.default_rng(3).integers(1, 256, (TILED_HEIGHT, TILED_WIDTH, 3), dtype=np.uint8)
+
+
+def color_from(data: bytes) -> TiledImage[ByteImage]:
+    return TiledImage(Path("take"), data, COLOR, decode_color)
+
+
+def test_tiled_jpeg_equals_whole_jpeg() -> None:
+    color = noisy_color()
+    back = color_from(pack_tiles(color, encode_color)).decode(None)
+    np.testing.assert_array_equal(back, decode_color(encode_color(color)))
+    assert not back.flags.writeable
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        Region(0, 0, 1, 1), Region(79, 79, 81, 81), Region(160, 80, 240, 130), Region(-50, 100, 20, 900),
+        Region(240, 0, 250, 130), Region(-20, -20, -5, -5), Region(300, 10, 400, 20),
+    ],
+)  # fmt: skip
+def test_tiled_image_decodes_only_the_region(part: Region) -> None:
+    color = noisy_color()
+    tiled = color_from(pack_tiles(color, partial(encode_color, lossless=True)))
+    seen = tiled.decode(part)
+    inside = np.s_[max(part.top, 0) : max(part.bottom, 0), max(part.left, 0) : max(part.right, 0)]
+    np.testing.assert_array_equal(seen[inside], color[inside])
+    columns = min(part.right, TILED_WIDTH) // TILE_PX - max(part.left, 0) // TILE_PX + 1
+    assert seen.any(axis=-1).sum() <= max(columns, 0) * TILE_PX * TILED_HEIGHT
+    np.testing.assert_array_equal(tiled.decode(None), color)
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [
+        lambda data: b"",
+        lambda data: data[:40],
+        lambda data: data[:-1],
+        lambda data: data + b"x",
+        lambda data: b"\xff\xff\xff\xff" + data[4:],
+        lambda data: data[:36] + bytes(len(data) - 36),
+        lambda data: b"\xfb" + data[1:],  # a column wider
+    ],
+)
+def test_tiled_image_invalid_data_raises(damaged: object) -> None:
+    data = pack_tiles(noisy_color(), encode_color)
+    with pytest.raises(RecordingUnreadable, match="take"):
+        color_from(damaged(data)).decode(None)  # type: ignore[operator]

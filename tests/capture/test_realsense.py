@@ -23,6 +23,7 @@ from carpus.core.capture.devices.cameras import (
     camera_open_error,
     camera_unlisted_error,
     check_firmware_and_usb,
+    open_camera,
 )
 from carpus.core.capture.devices.color_lock import MAX_ROUNDS, ColorController, ColorStatistics
 from carpus.core.capture.devices.process_camera import ProcessCamera
@@ -38,6 +39,7 @@ from carpus.core.model.errors import (
     CameraReturned,
     CarpusFault,
     DriverFailed,
+    ExtraMissing,
     RecordingDamaged,
 )
 from carpus.core.model.fault_text import format_fault_line
@@ -226,3 +228,6 @@ def test_realsense_doctor_checks_driver_and_settings(monkeypatch: pytest.MonkeyP
     found = realsense.KIND.check_driver(True, True)
     assert found is not None
     assert (found.state, found.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")
+    with pytest.raises(ExtraMissing) as notices:
+        open_camera("realsense:7")
+    assert format_fault_line(notices.value).endswith("-m pip install pyrealsense2”. (C-001)")

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.capture.camera_info import write_camera_info
-from carpus.core.capture.files.tum import TumFolder, TumWriter, count_dropped_frames, pair_by_time, to_tum_depth
+from carpus.core.capture.files.tum import TumFolder, TumWriter, pair_by_time, to_tum_depth
 from carpus.core.capture.source import FrameSource, SourceInfo, is_simulated
 from carpus.core.model.camera import DEFAULT_CAMERA, Camera
 from carpus.core.model.errors import (
@@ -208,13 +208,6 @@ def test_pair_by_time_is_optimal_within_limit(color_s: np.ndarray, depth_s: np.n
             owner = partner.index(other) if other in used else None
             theirs = np.inf if owner is None else abs(color_s[owner] - depth_s[other])
             assert mine <= gap + 1e-9 or theirs <= gap + 1e-9
-
-
-def test_count_dropped_frames_uses_median_period() -> None:
-    times = np.array([0.0, 0.033, 0.067, 0.1, 0.232, 0.266, 0.36])
-    assert count_dropped_frames(times) == [0, 0, 0, 0, 3, 0, 2]
-    assert count_dropped_frames(np.array([0.0, 0.03, 0.07, 0.10, 0.145])) == [0, 0, 0, 0, 0]
-    assert count_dropped_frames(np.empty(0)) == []
 
 
 def test_tum_folder_skip_damaged_notifies(take: Path, notices: list[CarpusFault]) -> None:

@@ -1,4 +1,4 @@
-"""Discs in small pictures: found all, found nothing else, to a tenth of a pixel, whatever the paper's colour."""
+"""Discs in small pictures: found all, found nothing else, to a tenth of a pixel, whatever the colour; depth, too."""
 
 from __future__ import annotations
 
@@ -9,8 +9,12 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from carpus.core.detection import appearance as ch
+from carpus.core.detection import surface_samples as surface_samples_module
 from carpus.core.detection.appearance import (
     DetectionSettings,
     MarkerAppearance,
@@ -21,8 +25,9 @@ from carpus.core.detection.appearance import (
 )
 from carpus.core.detection.blobs import find_components
 from carpus.core.detection.detector import MAX_SEARCH_RADIUS_PX, Detector
+from carpus.core.detection.surface_samples import SURFACE_SAMPLE_STEP_PX, sample_fingers, sample_surface
 from carpus.core.model.camera import Camera
-from carpus.core.model.types import Detections, FloatArray, Frame, Region
+from carpus.core.model.types import FINGER_SAMPLE_STEP_PX, ByteImage, Detections, FloatArray, Frame, Region
 from tests.detection.pictures import (
     CAMERA,
     DARK_SKIN,
@@ -261,3 +266,59 @@ def test_detection_settings_skin_share_limits_blobs() -> None:
     looks, _ = learn(BLUE, np.random.default_rng(23))
     on_table = seen(23, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])
     assert len(Detector(looks, CAMERA, replace(SETTINGS, min_skin_share=0.0)).detect(on_table, WHOLE)) == 7
+
+
+def random_hsv(seed: int, hue: tuple[int, int] = (0, 180)) -> ByteImage:
+    rng = np.random.default_rng(seed)
+    hsv = rng.integers(0, 256, (20, 30, 3))
+    hsv[..., 0] = rng.integers(*hue, (20, 30))
+    return hsv.astype(np.uint8)
+
+
+def test_histogram_smoothing_keeps_the_sum_and_wraps_hue() -> None:
+    """Red lies at both ends of the hue circle: smoothed, one end reaches the other."""
+    hsv = np.full((4, 4, 3), 128, dtype=np.uint8)
+    hsv[..., 0] = 179
+    found = ch.compute_histogram(hsv, np.ones((4, 4), dtype=bool), smooth_bins=1.2)
+    assert found.sum() == pytest.approx(1.0)
+    assert found[0].sum() > 0.15
+    assert found[0].sum() == pytest.approx(found[-2].sum(), rel=0.01)
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 1000), st.integers(0, 1000))
+def test_bhattacharyya_is_opencvs(a: int, b: int) -> None:
+    mask = np.ones((20, 30), dtype=bool)
+    one, other = ch.compute_histogram(random_hsv(a, (0, 60)), mask), ch.compute_histogram(random_hsv(b, (20, 90)), mask)
+    distance = cv2.compareHist(one.astype(np.float32), other.astype(np.float32), cv2.HISTCMP_BHATTACHARYYA)
+    assert float(ch.compute_bhattacharyya(one.ravel(), other.ravel())) == pytest.approx(1.0 - distance**2, abs=1e-4)
+
+
+FULL = Frame(0, 0.0, np.zeros((480, 640, 3), np.uint8), np.full((480, 640), 700, np.uint16), 1e-3)
+
+
+@pytest.mark.parametrize("shift_px", [0.0, 0.7])
+def test_surface_lattice_is_fixed_in_the_image(shift_px: float) -> None:
+    corners = np.array([[300.0, 200.0], [340.0, 205.0], [345.0, 260.0], [298.0, 255.0]]) + shift_px
+    found = sample_surface(FULL, corners)
+    assert found is not None
+    assert not np.any(found.pixel % SURFACE_SAMPLE_STEP_PX)
+
+
+def test_finger_samples_too_many_keeps_the_nearest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    discs = np.array([[300.0, 200.0], [360.0, 210.0]])
+    every = sample_fingers(FULL, discs)
+    monkeypatch.setattr(surface_samples_module, "MAX_FINGER_READINGS", 20)
+    some = sample_fingers(FULL, discs)
+    assert every is not None
+    assert some is not None
+    assert not np.any(every.pixel % FINGER_SAMPLE_STEP_PX)
+    assert len(every.pixel) > 40
+    assert len(some.pixel) == 20
+
+    def away_px(pixel: np.ndarray) -> np.ndarray:
+        return np.asarray(np.abs(pixel[:, None] - discs).sum(axis=-1).min(axis=1))
+
+    assert away_px(some.pixel).max() <= np.sort(away_px(every.pixel))[19]
