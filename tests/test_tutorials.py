@@ -15,23 +15,21 @@ SHORTER = {"PEOPLE, WEEKS = 4, 5": "PEOPLE, WEEKS = 1, 2", "seconds=4.0, fps=15.
 """A test renders less than a reader does."""
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where all run, so that they share a recording."""
-    return tmp_path_factory.mktemp("tutorials")
-
-
-@pytest.mark.xdist_group("tutorials")
-@pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
-def test_tutorial_runs_to_its_end(path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tutorials_run_to_their_ends_and_draw(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One after the other in one kernel and folder: they share a recording, and what loads for seconds."""
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    notebook = nbformat.read(path, as_version=4)
-    assert all(not cell.get("outputs") for cell in notebook.cells), "outputs are made with the site, not kept"
-    for cell in notebook.cells:
-        for long, short in SHORTER.items():
-            cell.source = cell.source.replace(long, short)
-    NotebookClient(notebook, timeout=280, resources={"metadata": {"path": str(folder)}}).execute()
-    shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-    drawn = [output for output in shown if "image/png" in output.get("data", {})]
-    assert drawn or path.stem.startswith("4"), "a figure"
-    assert shown
+    notebooks = [nbformat.read(path, as_version=4) for path in TUTORIALS]
+    cells = []
+    for notebook in notebooks:
+        assert all(not cell.get("outputs") for cell in notebook.cells), "outputs are made with the site, not kept"
+        cells += [nbformat.v4.new_code_cell("%reset -f"), *notebook.cells]
+        for cell in notebook.cells:
+            for long, short in SHORTER.items():
+                cell.source = cell.source.replace(long, short)
+    whole = nbformat.v4.new_notebook(cells=cells, metadata=notebooks[0].metadata)
+    NotebookClient(whole, timeout=280, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    for path, notebook in zip(TUTORIALS, notebooks, strict=True):
+        shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+        assert shown, path
+        drawn = [output for output in shown if "image/png" in output.get("data", {})]
+        assert drawn or path.stem.startswith("4"), "a figure"

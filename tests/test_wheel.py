@@ -24,23 +24,26 @@ REVISION = "carpus/resources/revision.txt"
 COMPILED = ROOT / "core" / "compiled"
 
 
-def build_in_checkout(code: str) -> None:
-    """Build in the checkout's own folder, one process at a time: a build clears what another one has laid there."""
+@pytest.fixture(scope="module")
+def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Source archive and wheel as pip builds them, in the checkout's own folder.
+
+    One process at a time: a build clears what another one has laid there.
+    """
+    folder = tmp_path_factory.mktemp("built")
+    code = f"from setuptools.build_meta import *; build_sdist({str(folder)!r}); build_wheel({str(folder)!r})"
     (ROOT / "build").mkdir(exist_ok=True)
     with (ROOT / "build" / "wheel.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[-2000:]
+    (archive,), (path,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
+    return archive, path
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Built as pip builds it."""
-    folder = tmp_path_factory.mktemp("wheel")
-    made = f"from setuptools.build_meta import build_wheel; print(build_wheel({str(folder)!r}))"
-    build_in_checkout(made)
-    (path,) = folder.glob("*.whl")
-    return path
+def wheel(built: tuple[Path, Path]) -> Path:
+    return built[1]
 
 
 @pytest.fixture(scope="module")
@@ -75,28 +78,11 @@ def test_wheel_holds_program_and_nothing_next_to_it(wheel: Path) -> None:
     assert not wheel.name.endswith("-any.whl")
 
 
-@pytest.fixture(scope="module")
-def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The source archive."""
-    folder = tmp_path_factory.mktemp("source")
-    made = f"from setuptools.build_meta import build_sdist; print(build_sdist({str(folder)!r}))"
-    build_in_checkout(made)
-    (path,) = folder.glob("*.tar.gz")
-    return path
-
-
-def test_source_archive_holds_all_that_wheel_is_built_of(archive: Path) -> None:
-    with tarfile.open(archive) as opened:
+def test_source_archive_holds_all_that_wheel_is_built_of(built: tuple[Path, Path]) -> None:
+    with tarfile.open(built[0]) as opened:
         names = {name.partition("/")[2] for name in opened.getnames()}
     assert names >= parts_of_the_checkout() | FACE | {"requirements.lock"}
     assert not [name for name in names if name.startswith(("build/", "dist/", ".venv/", ".ci/", *PARTS))]
-
-
-def test_parts_are_links_that_every_tool_follows() -> None:
-    for part in PARTS:
-        link = ROOT / "carpus" / part
-        assert link.is_symlink()
-        assert link.readlink() == Path("..") / part
 
 
 def carpus(installed: Path, folder: Path, *arguments: str) -> str:

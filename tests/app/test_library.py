@@ -10,6 +10,7 @@ from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -20,16 +21,18 @@ from carpus.core.records import session_records
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.new_sessions import SessionIntake, recover_sessions
 from carpus.core.records.retention import RecordRetention
-from carpus.core.records.session_setup import PRACTICE_PATIENT, SessionSetup
+from carpus.core.records.session_setup import MARKERS_SUFFIX, PRACTICE_PATIENT, SessionSetup
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.session_results import compute_session_results
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.screens.patients.patient_store import PatientStore
+from carpus.ui.screens.patients.patient_store import PatientStore, _compare_results
 from carpus.ui.screens.sessions.session_list import remark
 from carpus.ui.screens.sessions.session_store import SessionStore
 from tests.session.samples import CAMERA, make_calibration, make_frame
+from tests.ui.hand_fakes import FakeHandSessions
 
 
 @pytest.fixture
@@ -186,3 +189,26 @@ def test_choices_and_comments_are_kept_in_the_store(library: DataFolder) -> None
     assert library.comment(session_id) == ""
     assert library.choices(session_id) == choices
     assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"
+
+
+def test_patient_card_has_finger_totals_changes_and_lower_bounds() -> None:
+    sessions = FakeHandSessions(pictures=False)
+    first, last = (compute_session_results(sessions.session(key)) for key in ("hand-3", "hand-7"))
+    lines = _compare_results(first, last)
+    assert [line.subject for line, _ in lines] == [f"TAM{k}" for k in (2, 3, 4, 5)]
+    assert all(line is last.find(line.subject, "arc") for line, _ in lines)
+    assert any(line.is_lower_bound for line, _ in lines)
+    assert any(change.verdict == "improved" for _, change in lines)
+
+
+def test_last_marker_positions_are_of_the_same_hand_and_protocol(library: DataFolder) -> None:
+    linden = library.patients.add(Patient("Linden 42", "right", "right"))
+    wanted = set_up(linden, "Linden 42")
+    path = library.entry(store(library, wanted)).path
+    cv2.imwrite(str(path.with_suffix(MARKERS_SUFFIX)), np.full((40, 60, 3), 90, np.uint8))
+    assert library.read_marker_photo(linden, wanted) is not None
+    assert library.read_marker_photo(linden) is not None
+    assert library.read_marker_photo(linden, replace(wanted, side="left")) is None
+    whole_hand = replace(wanted, exercise=get_exercise("FIST_COMPOSITE"))
+    assert library.read_marker_photo(linden, whole_hand) is None
+    assert library.matching_sessions(linden, replace(wanted, exercise=get_exercise("WRIST_FE")))

@@ -245,6 +245,15 @@ def test_help_shows_examples_that_can_be_typed(name: str, command: Command) -> N
         assert all(exercise.id in told.out for exercise in EXERCISES)
 
 
+def test_commands_of_the_readme_can_be_typed() -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+    lines = re.findall(r"^\.venv/bin/(carpus .+)$|`\.venv/bin/(carpus[^`]*)`", readme, re.MULTILINE)
+    assert len(lines) >= 6
+    for line in lines:
+        words = shlex.split("".join(line))[1:]
+        build_parser(words).parse_args(words)
+
+
 def test_unknown_command_is_reported_with_what_was_meant(command: Command) -> None:
     done = command("trak", "recording")
     assert (done.code, done.err.count("\n")) == (2, 1)

@@ -34,35 +34,18 @@ COUNT = 3
 LOCAL = """
 from distributed import LocalCluster
 if __name__ == "__main__":
-    with LocalCluster(n_workers=1, dashboard_address=":0") as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster:
         print(cluster.scheduler_address, flush=True)
         __import__('sys').stdin.read()
 """
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """A scheduler and two workers as people start them: each has its nanny, and is a daemon."""
-    folder = tmp_path_factory.mktemp("cluster")
-    at = folder / "scheduler.json"
-
-    def begin(kind: str, *options: str) -> subprocess.Popen[bytes]:
-        here = ("--scheduler-file", str(at), "--host", "127.0.0.1")
-        words = (sys.executable, "-m", f"distributed.cli.dask_{kind}", *here, *options)
-        return subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    begun = [begin("scheduler", "--port", "0", "--no-dashboard", "--no-show")]
-    try:
-        begun.append(begin("worker", "--nworkers", "2", "--nthreads", "1", "--no-dashboard"))
-        with Client(scheduler_file=str(at), timeout="120s", set_as_default=False) as client:
-            client.wait_for_workers(2, timeout=120)
-            address: str = client.scheduler.address
-        yield address
-    finally:
-        for process in reversed(begun):
-            process.terminate()  # the nannies end their workers
-        for process in begun:
-            process.wait(60)
+def address() -> Iterator[str]:
+    """A scheduler and two workers, each a daemon with its nanny."""
+    begun = subprocess.Popen([sys.executable, "-c", LOCAL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    yield begun.stdout.readline().strip()
+    begun.communicate("", 60)
 
 
 @pytest.fixture(scope="module")
@@ -110,20 +93,12 @@ def test_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp
         assert np.array_equal(far.angles_sd_rad, here.angles_sd_rad, equal_nan=True)
 
 
-@pytest.fixture
-def made_in_python() -> Iterator[str]:
-    """Dask's own default: workers in processes, several threads each."""
-    begun = subprocess.Popen([sys.executable, "-c", LOCAL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    yield begun.stdout.readline().strip()
-    begun.communicate("", 60)
-
-
-def test_workers_elsewhere_track_what_the_command_asks(made_in_python: str, rendered: Rendered, tmp_path: Path) -> None:
+def test_workers_elsewhere_track_what_the_command_asks(address: str, rendered: Rendered, tmp_path: Path) -> None:
     """The short form of the others: one recording, nobody killed, the numbers of this computer."""
     recording, near, table = rendered(FLEXION), tmp_path / "near.h5", tmp_path / "all.parquet"
     shutil.copytree(recording, tmp_path / "in" / "r")
     words = ["track", str(tmp_path / "in"), "--no-smooth", "--output", str(tmp_path / "out"), "--table", str(table)]
-    assert main([*words, "--scheduler", made_in_python]) == 0
+    assert main([*words, "--scheduler", address]) == 0
     assert told(tmp_path / "out") == {"r.h5": "tracked"}
     assert set(parquet.read_table(table).column("session").to_pylist()) == {"r.h5"}
     words = ["track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--no-smooth", "--output"]
@@ -133,10 +108,10 @@ def test_workers_elsewhere_track_what_the_command_asks(made_in_python: str, rend
 
 
 @pytest.mark.thorough
-def test_client_that_is_killed_begins_again(made_in_python: str, recordings: Path, tmp_path: Path) -> None:
+def test_client_that_is_killed_begins_again(address: str, recordings: Path, tmp_path: Path) -> None:
     out, table = tmp_path / "out", tmp_path / "all.parquet"
     words = ["track", str(recordings), "--no-smooth", "--output", str(out), "--table", str(table)]
-    words += ["--scheduler", made_in_python]
+    words += ["--scheduler", address]
     client = subprocess.Popen([sys.executable, "-m", "carpus", *words], stderr=subprocess.DEVNULL)
     until = time.monotonic() + 120.0
     while not list(out.glob(".*.tmp")) and time.monotonic() < until:

@@ -12,7 +12,7 @@ import pytest
 
 from carpus.app.batch import tracking_task
 from carpus.app.batch.tracking_task import TrackingTask
-from carpus.app.batch.worker_pool import DIED_TEXT, count_cores, run_tasks
+from carpus.app.batch.worker_pool import DIED_TEXT, run_tasks
 from carpus.app.sources import TrackingInput
 from carpus.core.model.errors import OutputExists
 from carpus.core.pipeline.track import TrackSettings
@@ -74,15 +74,3 @@ def test_abandoned_iteration_leaves_no_process(tmp_path: Path) -> None:
     coming.close()  # type: ignore[attr-defined]
     assert not list(tmp_path.glob("r*.h5")), "what was under way was tidied"
     assert "carpus-batch" not in {child.name for child in multiprocessing.active_children()}
-
-
-def test_core_count_is_at_least_one() -> None:
-    assert count_cores() >= 1
-    assert list(run_tasks([], 2)) == []
-
-
-def test_pool_with_more_workers_than_tasks(tmp_path: Path) -> None:
-    tasks = [task(tmp_path, f"r{i}") for i in range(2)]
-    assert {outcome.tracking_input.name for outcome in run_tasks(tasks, 5, deadly)} == {
-        t.tracking_input.name for t in tasks
-    }

@@ -105,13 +105,6 @@ def test_batch_faults_are_collected_and_results_kept(made: Path, tmp_path: Path,
         assert path.read_bytes() == content
 
 
-def test_many_into_one_file_is_refused(made: Path, tmp_path: Path, command: Command) -> None:
-    one, other, output = made / "second", made / "third", tmp_path / "s.h5"
-    done = command("track", one, other, "--output", output)
-    assert (done.code, "folder" in done.err) == (2, True)
-    assert command("track", one, "--calibration", one / CLICKS_FILE, "--output", output, "--jobs", "2").code == 2
-
-
 def test_batch_foreign_table_is_not_replaced(made: Path, tmp_path: Path, command: Command) -> None:
     out = tmp_path / "out"
     out.mkdir()
