@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType, UnionType
@@ -209,8 +210,7 @@ def write_session(
     chosen = _build_settings(where, filter, dip, use_depth, profile, lost_after_s)
     recorded, out = check_path(where, "path", path), check_path(where, "output", output)
     told = _load_clicks(where, clicks)
-    source = open_recording(recorded, need_depth=chosen.uses_depth, notice=show_warning)
-    try:
+    with closing(open_recording(recorded, need_depth=chosen.uses_depth, notice=show_warning)) as source:
         try:
             out.parent.mkdir(parents=True, exist_ok=True)
         except OSError as cause:
@@ -219,8 +219,6 @@ def write_session(
             source, told, out, replace(chosen, smooth=smooth and chosen.smooth),
             subject_id=subject_id, exercise=exercise or told.exercise, path=recorded,
         )  # fmt: skip
-    finally:
-        source.close()
     return open_session(out)
 
 
@@ -318,13 +316,10 @@ def _check_picture(
 
 
 def _track_frames(path: Path, clicks: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
-    source = open_recording(path, need_depth=chosen.uses_depth, notice=show_warning)
-    try:
+    with closing(open_recording(path, need_depth=chosen.uses_depth, notice=show_warning)) as source:
         begun, names = start_tracking(source, clicks, chosen), clicks.protocol.joint_names(chosen.dip_free)
         for frame in begun.frames:
             yield _hand_frame(begun.pipeline(frame), names, clicks.protocol.markers)
-    finally:
-        source.close()
 
 
 def _hand_frame(found: TrackedFrame, joint_names: Sequence[str], markers: tuple[str, ...]) -> HandFrame:
@@ -376,11 +371,8 @@ def propose_clicks(
     _check(where, "depth_unit_m", depth_unit_m, float, (1e-6, 1.0))
     markers = get_protocol(protocol)
     if isinstance(frame, (str, Path)):
-        source = open_recording(check_path(where, "frame", frame), need_depth=False)
-        try:
+        with closing(open_recording(check_path(where, "frame", frame), need_depth=False)) as source:
             first, camera = next(source.frames(), None), camera or source.info.camera
-        finally:
-            source.close()
         if first is None:
             raise RecordingEmpty(frame)
     elif isinstance(frame, Frame):

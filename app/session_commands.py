@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import print_fault
-from carpus.app.settings import Settings, load_valid_settings, sessions_folder
+from carpus.app.settings import load_valid_settings, sessions_folder
 from carpus.core.model import errors
 from carpus.core.model.errors import CarpusFault
 from carpus.core.records.session_setup import PRACTICE_PATIENT
@@ -50,7 +50,7 @@ def find_data_folder(path: Path) -> Path | None:
 
 def has_store(folder: Path) -> bool:
     """Tell whether a data folder has a patient list, in it or on the clinic's server."""
-    return (folder / STORE_FILE).is_file() or bool(_find_server_url(folder))
+    return (folder / STORE_FILE).is_file() or bool(_clinic_places(folder)[0])
 
 
 def require_store(folder: Path) -> None:
@@ -72,9 +72,8 @@ def open_store(
     from carpus.core.records.store import Store, open_to_read
 
     require_store(folder)
-    return (open_to_read if read_only else Store)(
-        folder, _find_shared_folder(folder), _find_server_url(folder), on_fault
-    )
+    url, share = _clinic_places(folder)
+    return (open_to_read if read_only else Store)(folder, share, url, on_fault)
 
 
 def make_server_copier(folder: Path) -> Callable[[], sqlite3.Connection] | None:
@@ -84,21 +83,14 @@ def make_server_copier(folder: Path) -> Callable[[], sqlite3.Connection] | None:
         with open_store(folder) as store:
             return store.copy_to_memory()
 
-    return copy_store if _find_server_url(folder) else None
+    return copy_store if _clinic_places(folder)[0] else None
 
 
-def _find_server_url(folder: Path) -> str:
+def _clinic_places(folder: Path) -> tuple[str, Path | None]:
+    """Return server and shared folder of this computer's own data folder; none for another one."""
     settings, _ = load_valid_settings()
-    return settings.records.url if _is_default_folder(folder, settings) else ""
-
-
-def _find_shared_folder(folder: Path) -> Path | None:
-    settings, _ = load_valid_settings()
-    return sessions_folder(settings) if _is_default_folder(folder, settings) else None
-
-
-def _is_default_folder(folder: Path, settings: Settings) -> bool:
-    return os.path.realpath(folder) == os.path.realpath(settings.data_folder)
+    is_own = os.path.realpath(folder) == os.path.realpath(settings.data_folder)
+    return (settings.records.url, sessions_folder(settings)) if is_own else ("", None)
 
 
 def read_choices(path: Path) -> RepetitionChoices:
@@ -187,7 +179,7 @@ def open_library(folder: Path, *, read_only: bool = False) -> DataFolder:
     """Open the library of a data folder, with the clinic's server and share if it is this computer's own."""
     from carpus.core.records.data_folder import DataFolder
 
-    url, share = _find_server_url(folder), _find_shared_folder(folder)
+    url, share = _clinic_places(folder)
     library = DataFolder(folder, source="command", url=url, sessions_folder=share, read_only=read_only)
     library.get_initials = user_initials
     library.on_fault = print_fault

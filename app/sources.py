@@ -65,30 +65,13 @@ def open_recording(
     return with_stored_calibration(source, data_folder)
 
 
-def open_board(recording: Path | None, notice: NoticeHandler) -> FrameSource:
-    """Open a recording of the calibration board, or the live camera if None."""
-    if recording is None:
-        from carpus.app.settings import load_settings
-
-        return _open_named_camera(load_settings(), notice)
-    return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=notice)
-
-
-def open_card(recording: Path | None, settings: Settings, notice: NoticeHandler) -> FrameSource:
-    """Open a recording of the check card, or the live camera if None, with its stored calibration."""
-    from carpus.core.capture.calibrated_source import with_stored_calibration
-
-    if recording is None:
-        return with_stored_calibration(_open_named_camera(settings, notice), settings.data_folder)
-    return open_recording(recording, leave_out_damaged=True, notice=notice, data_folder=settings.data_folder)
-
-
-def _open_named_camera(settings: Settings, notice: NoticeHandler) -> FrameSource:
-    """Open the live camera of the settings, with the name it was given."""
+def open_named_camera(settings: Settings, notice: NoticeHandler, uri: str | None = None) -> FrameSource:
+    """Open a live camera, that of the settings without ``uri``, with the name it was given."""
     from carpus.core.capture.calibrated_source import with_given_name
     from carpus.core.capture.devices.cameras import open_camera
 
-    return with_given_name(open_camera(settings.camera.uri, notice=notice), settings.data_folder)
+    address = settings.camera.uri if uri is None else uri
+    return with_given_name(open_camera(address, notice=notice), settings.data_folder)
 
 
 _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}

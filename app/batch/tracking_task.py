@@ -5,7 +5,7 @@ Runs in a process of its own, here or on another machine, so tasks and outcomes 
 
 from __future__ import annotations
 
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from typing import Literal
 
@@ -143,13 +143,14 @@ def _track(task: TrackingTask, messages: list[str]) -> None:
     def add_fault(fault: CarpusFault) -> None:
         messages.append(format_fault_line(fault))
 
-    source = open_recording(
-        place.recording,
-        leave_out_damaged=task.leave_out_damaged,
-        data_folder=load_settings().data_folder,
-        notice=add_fault,
-    )
-    try:
+    with closing(
+        open_recording(
+            place.recording,
+            leave_out_damaged=task.leave_out_damaged,
+            data_folder=load_settings().data_folder,
+            notice=add_fault,
+        )
+    ) as source:
         camera = source.info.camera
         warn_assumed_intrinsics(source, place.recording, add_fault)
         clicks = read_clicks(place.clicks, camera.width_px, camera.height_px)
@@ -164,5 +165,3 @@ def _track(task: TrackingTask, messages: list[str]) -> None:
             path=place.recording,
             on_date=add_date_message,
         )
-    finally:
-        source.close()

@@ -75,7 +75,7 @@ def run_calibrate_camera(arguments: argparse.Namespace) -> int:
 
 def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.app.sources import open_board
+    from carpus.app.sources import open_named_camera, open_recording
     from carpus.core.calibration.camera.board import CHESSBOARD, ViewCollector
     from carpus.core.calibration.camera.calibrate import (
         calibrate_camera,
@@ -91,7 +91,11 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
     square_m = CHESSBOARD.square_m if arguments.square_mm is None else 1e-3 * arguments.square_mm
-    with closing(open_board(arguments.recording, print_fault)) as source:
+    if arguments.recording is None:
+        source = open_named_camera(load_settings(), print_fault)
+    else:
+        source = open_recording(arguments.recording, need_depth=False, leave_out_damaged=True, notice=print_fault)
+    with closing(source):
         info = source.info
         gathering = ViewCollector(info.camera, replace(CHESSBOARD, square_m=square_m))
         _collect_views(source, gathering, is_live=arguments.recording is None)
@@ -173,16 +177,22 @@ def run_check_card(arguments: argparse.Namespace) -> int:
 
 def _check_camera(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.app.sources import open_card
+    from carpus.app.sources import open_named_camera, open_recording
     from carpus.core.calibration.card.card import verdict_sentence
     from carpus.core.calibration.card.checks import CardCheck, add_check, checks_path, read_checks
     from carpus.core.calibration.card.measure import measure_card
-    from carpus.core.capture.calibrated_source import save_camera_name
+    from carpus.core.capture.calibrated_source import save_camera_name, with_stored_calibration
     from carpus.core.model.dates import is_moment, to_iso
 
     settings = load_settings()
     data_folder = settings.data_folder
-    with closing(open_card(arguments.recording, settings, print_fault)) as source:
+    if arguments.recording is None:
+        source = with_stored_calibration(open_named_camera(settings, print_fault), data_folder)
+    else:
+        source = open_recording(
+            arguments.recording, leave_out_damaged=True, notice=print_fault, data_folder=data_folder
+        )
+    with closing(source):
         info = source.info
         reading = measure_card(_count_frames(source), info.camera, str(arguments.recording or info.name))
     when = info.recorded if is_moment(info.recorded) else to_iso(datetime.now().astimezone())

@@ -21,8 +21,8 @@ from carpus.app.command_line import (
     report_usage_error,
 )
 from carpus.app.settings import load_settings
-from carpus.core.capture.calibrated_source import with_given_name, with_stored_calibration
-from carpus.core.capture.devices.cameras import open_camera
+from carpus.app.sources import open_named_camera, open_recording
+from carpus.core.capture.calibrated_source import with_stored_calibration
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import FrameSource, find_recording_date
@@ -75,13 +75,10 @@ def run_record(arguments: argparse.Namespace) -> int:
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     if arguments.origin is not None:
-        from carpus.app.sources import open_recording
-
         source = open_recording(arguments.origin, notice=print_fault)
     else:
         settings = load_settings()
-        wanted = settings.camera.uri if arguments.camera is None else arguments.camera
-        source = with_given_name(open_camera(wanted, notice=print_fault), settings.data_folder)
+        source = open_named_camera(settings, print_fault, arguments.camera)
         print(f"Camera: {source.info.name}")
         if arguments.format == "tum":
             # A folder of pictures cannot say which camera it came from; a raw recording can, and stays as it came.
@@ -99,7 +96,10 @@ def run_record(arguments: argparse.Namespace) -> int:
         said = replace(source.info, recorded=to_iso(datetime.now().astimezone()), recording_id=str(uuid.uuid4()))
 
     # The disk has a thread of its own: a slow moment of it must not hold up the camera.
-    recorder = Recorder("pictures", open_writer, _write_frame, MAX_WAITING_FRAMES, _ignore_fault)
+    # Its fault is raised when the recording is finished.
+    recorder: Recorder[RawWriter | TumWriter, Frame] = Recorder(
+        "pictures", open_writer, lambda writer, frame: writer.append_frame(frame), MAX_WAITING_FRAMES, lambda _: None
+    )
     total = None if arguments.seconds is None else max(1, round(arguments.seconds * source.info.nominal_fps))
     try:
         recorder.start()
@@ -133,11 +133,3 @@ def _record_frames(
             if total is not None and count >= total:
                 break
     return count, missed
-
-
-def _write_frame(writer: RawWriter | TumWriter, frame: Frame) -> None:
-    writer.append_frame(frame)
-
-
-def _ignore_fault(_fault: Exception) -> None:
-    """Do nothing: finishing the recording raises the fault."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
@@ -143,9 +144,7 @@ def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> 
         data_folder=load_settings().data_folder,
         notice=print_fault,
     )
-    if arguments.stream:
-        source = PacedSource(source)
-    try:
+    with closing(PacedSource(source) if arguments.stream else source) as source:
         camera = source.info.camera
         warn_assumed_intrinsics(source, arguments.recording, print_fault)
         clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
@@ -168,8 +167,6 @@ def _track_recording(arguments: argparse.Namespace, settings: TrackSettings) -> 
                 on_date=warn_of_date,
                 listener=listener,
             )
-    finally:
-        source.close()
     for sentence in print_report(report):
         print_message(f"warning: {sentence}")
     return 0
@@ -180,7 +177,7 @@ def _open_stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Lis
     from carpus.core.pipeline.lsl_stream import SampleStream, import_pylsl
 
     begun_s: list[float] = []
-    stream = SampleStream.open(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
+    stream = SampleStream(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
     if not stream.has_listener(LISTENER_TIMEOUT_S):
         print_message("no program receives the stream; tracking continues.")
     begun_s.append(import_pylsl().local_clock())

@@ -151,7 +151,7 @@ class SourceFactory:
             from carpus.core.pipeline.lsl_stream import SampleStream
 
             rate_hz, dip_free = session.info.nominal_fps, self._track_settings(set_up).tracker.dip == "free"
-            return SampleStream.open(calibration.clicks, rate_hz, dip_free=dip_free)
+            return SampleStream(calibration.clicks, rate_hz, dip_free=dip_free)
 
         measuring = MeasurementController(
             session, source.info, set_up, track, self._new_sessions,

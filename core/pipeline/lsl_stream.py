@@ -7,7 +7,6 @@ There are two outlets, off by default: ``Carpus`` of type ``MoCap``, one sample 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -60,31 +59,24 @@ def build_sample(frame: TrackedFrame) -> list[float]:
     ]
 
 
-@dataclass(slots=True)
 class SampleStream:
-    """Two open outlets, to be used by one thread."""
+    """Two open outlets of a hand, to be used by one thread; raises :class:`ExtraMissing` without pylsl.
 
-    _samples: Any
-    _events: Any
-    _offset_s: Callable[[float], float]
+    ``clock`` gives the LSL time of the first frame and is called once; default is the time when it comes.
+    """
 
-    @classmethod
-    def open(
-        cls, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
-    ) -> SampleStream:
-        """Open both outlets of a hand; raises :class:`ExtraMissing` without pylsl.
-
-        ``clock`` gives the LSL time of the first frame and is called once; default is the time when it comes.
-        """
+    def __init__(
+        self, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
+    ) -> None:
         lsl = import_pylsl()
-        listed_channels = list_channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
-        info = lsl.StreamInfo(NAME, "MoCap", len(listed_channels), rate_hz, lsl.cf_float32, LIVE_ID)
+        channels = list_channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
+        info = lsl.StreamInfo(NAME, "MoCap", len(channels), rate_hz, lsl.cf_float32, LIVE_ID)
         about = info.desc()
         about.append_child_value("manufacturer", "Carpus")
         about.append_child_value("hand", clicks.side)
         about.append_child_value("frame", "axes of the colour camera: x right, y down, z forward")
         listed = about.append_child("channels")
-        for channel in listed_channels:
+        for channel in channels:
             entry = listed.append_child("channel")
             for name, text in (
                 ("label", channel.label), ("marker", channel.marker), ("object", "hand"), ("type", channel.kind),
@@ -92,30 +84,26 @@ class SampleStream:
             ):  # fmt: skip
                 entry.append_child_value(name, text)
         marks = lsl.StreamInfo(EVENTS_NAME, "Markers", 1, lsl.IRREGULAR_RATE, lsl.cf_string, f"{LIVE_ID}-events")
-        return cls(lsl.StreamOutlet(info), lsl.StreamOutlet(marks), _make_clock_offset(clock or lsl.local_clock))
+        self._samples, self._events = lsl.StreamOutlet(info), lsl.StreamOutlet(marks)
+        self._clock = clock or lsl.local_clock
+        self._offset_s: float | None = None
 
     def on_frame(self, frame: TrackedFrame) -> None:
         """Send the sample of a frame with its capture time."""
-        self._samples.push_sample(build_sample(frame), frame.timestamp_s + self._offset_s(frame.timestamp_s))
+        self._samples.push_sample(build_sample(frame), self._lsl_time_s(frame.timestamp_s))
 
     def on_event(self, time_s: float, kind: str) -> None:
         """Send an event, its kind alone: a note may contain names."""
-        self._events.push_sample([kind], time_s + self._offset_s(time_s))
+        self._events.push_sample([kind], self._lsl_time_s(time_s))
 
     def has_listener(self, timeout_s: float) -> bool:
         """Return whether a listener connects within a time."""
         return bool(self._samples.wait_for_consumers(timeout_s))
 
-
-def _make_clock_offset(clock: Callable[[], float]) -> Callable[[float], float]:
-    offsets: list[float] = []
-
-    def offset_s(time_s: float) -> float:
-        if not offsets:
-            offsets.append(clock() - time_s)
-        return offsets[0]
-
-    return offset_s
+    def _lsl_time_s(self, time_s: float) -> float:
+        if self._offset_s is None:
+            self._offset_s = self._clock() - time_s
+        return time_s + self._offset_s
 
 
 def import_pylsl() -> Any:

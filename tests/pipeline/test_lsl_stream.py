@@ -47,7 +47,7 @@ def test_lsl_stream_is_read_by_another_process(tmp_path: Path, monkeypatch: pyte
     begun_s = pylsl.local_clock()
     offset_s = begun_s - compute_time(0)
     clicks = Clicks("left", HAND21, np.zeros((21, 2)))
-    stream = SampleStream.open(clicks, 30.0, dip_free=False, clock=lambda: begun_s)
+    stream = SampleStream(clicks, 30.0, dip_free=False, clock=lambda: begun_s)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER, source], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
