@@ -51,7 +51,7 @@ _GRACE_S = 60.0
 
 _UNITS = {
     "calibration", "compiled", "detection", "formats", "measures", "model", "research", "tracking", "test_camera.py",
-    "test_constants.py", "test_depth_sensor.py", "test_disks.py", "test_forbidden_words.py", "test_house.py",
+    "test_depth_sensor.py", "test_disks.py", "test_forbidden_words.py", "test_house.py",
     "test_names.py", "test_readings.py", "test_so3.py", "test_words.py",
 }  # fmt: skip
 """Tests that need no window, no process, no server; those of them that ask for a recording are journeys."""

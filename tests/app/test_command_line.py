@@ -191,24 +191,3 @@ def test_damaged_frames_raise_or_are_skipped_and_reported(recording: Path, tmp_p
     assert len(session) == len(color) - 2
     assert session.quality.dropped_before.sum() == 2
     assert session.header.is_simulated
-
-
-def test_session_is_exported_in_every_format_and_nothing_is_overwritten(
-    session: Path, tmp_path: Path, command: Command
-) -> None:
-    folder = tmp_path / "new" / "export"
-    done = command("export", session, "--format", "csv,json,c3d,trc,mot", "--output", folder)
-    names = {path.name for path in folder.iterdir()}
-    assert names >= {
-        "session.wrist.for-programs.csv",
-        "session.measures.json",
-        "session.c3d",
-        "session.trc",
-        "session.mot",
-    }
-    assert done.code == 0
-    assert all(name in done.out for name in names)
-    again = command("export", session, "--format", "csv", "--output", folder)
-    assert (again.code, "session.wrist.for-programs.csv" in again.err) == (1, True)
-    assert command("export", session, "--format", "bids", "--output", tmp_path / "set").code == 0
-    assert (tmp_path / "set" / "dataset_description.json").exists()

@@ -192,8 +192,7 @@ def test_pending_result_is_unlisted_until_accepted(kept: Kept) -> None:
     assert later.list_pending() == []
 
 
-@pytest.mark.parametrize("kind", ["session", "patient"])
-@pytest.mark.parametrize("is_damaged", [False, True])
+@pytest.mark.parametrize(("kind", "is_damaged"), [("session", True), ("patient", False)])
 def test_pending_results_are_deleted_with_their_session(kept: Kept, kind: str, is_damaged: bool) -> None:
     other = kept.path
     trials = [kept.trial() for _ in range(2)]

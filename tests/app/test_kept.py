@@ -91,7 +91,10 @@ def test_commands_are_logged_where_the_session_is_kept(library: DataFolder, tmp_
         ("info", path), ("verify", path), ("export", path, "--output", out),
         ("report", path, "--output", out / "r.pdf"), ("info", library.entry(practice).path), ("info", elsewhere),
     ):  # fmt: skip
-        assert command(*words).code == 0
+        done = command(*words)
+        assert (done.code, "Written: " in done.out) == (0, words[0] == "export")
+    again = command("export", path, "--output", out)
+    assert (again.code, f"{path.stem}.wrist" in again.err) == (1, True), "nothing is overwritten"
     commands = [did for did, by, _ in deeds(library.folder) if by == "command"]
     assert commands == ["opened", "opened", "exported", "reported"]
     assert "6 lines." in command("log", "--data-folder", library.folder).out

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.model.errors import RecordingEmpty
+from carpus.core.model.errors import DiskFull, RecordingEmpty
 from carpus.core.model.types import Detections, Frame, Region, TrackedFrame
-from carpus.core.pipeline import smoothing
+from carpus.core.pipeline import measurement, smoothing
 from carpus.core.pipeline.measurement import LivePipeline, RecordedSession
 from carpus.core.pipeline.smoothing import CHUNK_S, SmoothingProcess, TrackedHand
 from carpus.core.pipeline.track import (
@@ -21,7 +21,7 @@ from carpus.core.pipeline.track import (
     FramePipeline,
 )
 from carpus.core.session.journal import RecordingJournal
-from carpus.core.session.reader import read_session
+from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import Session
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import FilterSteps, Tracker
@@ -158,8 +158,29 @@ def test_note_before_the_first_frame_is_stored_with_the_first_row(tmp_path: Path
     rows = [pipeline(frame) for frame in list(frames())[:3]]
     for row in rows:
         session.append(row)
+    session.add_event(rows[1].timestamp_s, "note", "elbow lifted")
     session.close()
     events = read_session(tmp_path / "early.h5").events
     assert [(event.time_s, event.kind, event.text) for event in events] == [
-        (pytest.approx(rows[0].timestamp_s), "note", "strap loose")
+        (pytest.approx(rows[0].timestamp_s), "note", "strap loose"),
+        (pytest.approx(rows[1].timestamp_s), "note", "elbow lifted"),
     ]
+
+
+def test_recorded_session_full_disk_is_retried_at_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tries: list[Path] = []
+
+    def fill(*_: object) -> None:
+        tries.append(tmp_path)
+        raise DiskFull(tmp_path)
+
+    monkeypatch.setattr(measurement, "ROWS_AT_ONCE", 5)
+    recording = open_session(tmp_path / "session.h5", None)
+    with monkeypatch.context() as full:
+        full.setattr(measurement.SessionDraft, "read", fill)
+        for row in range(20):
+            recording.append(walk_session()[row][0])
+    recording.close()
+    assert len(tries) == 1
+    assert read_outline(tmp_path / "session.h5").frames == 20
+    assert [entry.name for entry in tmp_path.iterdir()] == ["session.h5"]

@@ -70,14 +70,11 @@ OF_A_FUNCTION = [
     ("compare", {"markers": {"MCP9": "a"}}, "a name in markers is 'MCP9'"),
     ("compare", {"columns": {"flexoin": "a"}}, "a name in columns is 'flexoin', 'time' or 'deviation' or 'flexion'"),
     ("compare", {"columns": {"flexion": 2}}, "columns['flexion'] is 2, a text"),
-    ("compare", {"columns": 5}, "columns is 5"),
     ("compare", {"columns": "flexion"}, "columns is 'flexion'"),
     ("export", {"deidentified": "no"}, "deidentified is 'no', True or False"),
     ("export", {"formats": "xyz"}, "formats is 'xyz', 'csv' or"),
     ("export", {"formats": ["xls"]}, "xls"),
-    ("export", {"formats": None}, "formats is None"),
     ("export", {"formats": [5]}, "formats is 5"),
-    ("export", {"formats": [["csv"]]}, "formats is ['csv']"),
     ("write_session", {"subject_id": 5}, "subject_id is 5, a text"),
     ("write_session", {"exercise": None}, "exercise is None, a text"),
     ("write_session", {"exercise": "WRIST_XX"}, "exercise is 'WRIST_XX', 'WRIST_FE' or"),
@@ -284,15 +281,15 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     assert (given.lag_s, given.is_given, given.drift) == (0.1, True, pytest.approx(0.01))
 
 
-@pytest.mark.parametrize("words", [["--help"], ["track", "--help"], ["results", "--help"]])
-def test_help_loads_neither_numpy_nor_tracker(words: list[str]) -> None:
-    script = f"""
+def test_help_loads_neither_numpy_nor_tracker() -> None:
+    script = """
 import sys
 from carpus.app.__main__ import main
-try:
-    main({words!r})
-except SystemExit:
-    print({{'numpy', 'cv2', 'carpus.core.tracking.tracker'}} & set(sys.modules))
+for words in (["--help"], ["track", "--help"], ["results", "--help"]):
+    try:
+        main(words)
+    except SystemExit:
+        print({"numpy", "cv2", "carpus.core.tracking.tracker"} & set(sys.modules))
 """
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "set()"
+    assert [line for line in done.stdout.splitlines() if line.startswith(("set", "{"))] == ["set()"] * 3

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import subprocess
-import sys
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -19,6 +18,7 @@ import pytest
 from carpus import __version__
 from carpus.core.detection.appearance import DetectionSettings
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
+from carpus.core.model.types import TrackedFrame
 from carpus.core.pipeline.track import NeutralNoise, TrackSettings, format_parameters
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
@@ -134,40 +134,28 @@ def _later(line: str, shift_s: float) -> str:
     return f"{float(time_s) + shift_s:.6f} {name}"
 
 
-SETTINGS = "[lab]\nKnownPeers = {127.0.0.1}\nSessionID = stream-command\n[multicast]\nResolveScope = machine\n"
-LISTENER = """
-import json, pylsl
-found = pylsl.resolve_byprop("source_id", "carpus-live", timeout=60.0)
-inlet = pylsl.StreamInlet(found[0], processing_flags=0)
-inlet.open_stream(timeout=20.0)
-samples = [inlet.pull_sample(timeout=20.0) for _ in range(24)]
-print(json.dumps(samples))
-"""
+class Heard:
+    """Stands for the outlets, which ``tests/pipeline`` reads back from another process."""
+
+    frames: ClassVar[list[TrackedFrame]] = []
+    has_listener = staticmethod(lambda _: False)
+
+    def __init__(self, _clicks: object, rate_hz: float, **_: object) -> None:
+        assert rate_hz == 30.0
+
+    def on_frame(self, frame: TrackedFrame) -> None:
+        self.frames.append(frame)
 
 
-def test_stream_receiver_gets_tracked_values_at_frame_times(rendered: Rendered, tmp_path: Path) -> None:
-    folder, output = rendered(FLEXION), tmp_path / "session.h5"
-    (tmp_path / "lsl_api.cfg").write_text(SETTINGS, encoding="utf-8")
-    environment = {**os.environ, "LSLAPICFG": str(tmp_path / "lsl_api.cfg")}
-    listener = subprocess.Popen(
-        [sys.executable, "-c", LISTENER], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
-    )
-    command = ["track", str(folder), "--calibration", str(folder / "calibration.json"), "--output", str(output)]
-    try:
-        done = subprocess.run(
-            [sys.executable, "-m", "carpus", *command, "--stream", "--no-smooth"],
-            env=environment, capture_output=True, text=True, timeout=120,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        assert "no program receives" not in done.stderr
-        out, err = listener.communicate(timeout=60)
-    finally:
-        listener.kill()
-        listener.wait()
-    assert listener.returncode == 0, err
-    samples, session = json.loads(out), read_session(output)
-    assert len(session) == len(samples) == 24
-    heard = np.array([values[1:4] for values, _ in samples])
-    assert np.allclose(heard, np.degrees(session.motion.angles_rad), atol=1e-4)
-    times_s = np.array([time_s for _, time_s in samples])
-    assert np.allclose(times_s - times_s[0], session.timestamp_s - session.timestamp_s[0], atol=1e-4)
+def test_stream_gets_tracked_frames_as_fast_as_they_were_taken(
+    rendered: Rendered, tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("carpus.core.pipeline.lsl_stream.SampleStream", Heard)
+    begun_s = time.monotonic()
+    done = command("track", rendered(FLEXION), "--output", tmp_path / "s.h5", "--stream", "--no-smooth")
+    assert (done.code, "no program receives the stream" in done.err) == (0, True)
+    session = read_session(tmp_path / "s.h5")
+    assert time.monotonic() - begun_s > session.timestamp_s[-1] - session.timestamp_s[0]
+    assert len(session) == len(Heard.frames) == 24
+    heard = np.array([frame.kinematics.angles_rad for frame in Heard.frames])
+    np.testing.assert_allclose(heard, session.motion.angles_rad)

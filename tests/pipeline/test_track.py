@@ -105,6 +105,8 @@ def test_track_recording_writes_complete_session(made: Made) -> None:
             assert np.isfinite(file[f"smoothed/{name}"]).all()
         assert np.asarray(file["detections/frame"]).max() == count - 1
         assert np.isfinite(file["calibration/marker_position"]).all()
+        wrist_m = file["wrist/position"][()] @ file["calibration/rotation"][()].T + file["calibration/translation"][()]
+        assert np.abs(wrist_m - file["markers/position_camera"][:, 0]).max() < 1e-6, "also where the skin glides"
         parameters = json.loads(str(file.attrs["parameters"]))
         assert parameters["settings"]["tracker"]["tissue"]["lasts_s"] > 0.0
 

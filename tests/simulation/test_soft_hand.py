@@ -41,7 +41,7 @@ def min_distance(scene: Scene) -> float:
     return float(time_s[scene.pose(time_s).tissue.cup_rad[:, 1].argmax()])
 
 
-@pytest.mark.parametrize("options", few(CASES, 2))
+@pytest.mark.parametrize("options", few(CASES))
 def test_soft_hand_markers_lie_on_the_surface(options: dict[str, Any]) -> None:
     spec = RecordingSpec(seed=5, depth_delay_s=0.0, sensor_noise=False, exposure_s=0.0, **options, **SOFT)
     pictures = SimulatedRecording(spec)
