@@ -90,9 +90,3 @@ def test_folder_of_packages_is_what_apt_reads(release: ModuleType, tmp_path: Pat
     assert hashlib.sha256(listed).hexdigest() in (folder / "Release").read_text()
     for path in packages:
         assert hashlib.sha256(path.read_bytes()).hexdigest().encode() in listed
-
-
-def write(folder: Path) -> Path:
-    folder.mkdir()
-    (folder / "Packages").write_text("Package: another\nVersion: 9\n")
-    return folder
