@@ -91,7 +91,7 @@ def test_rendered_covered_markers_are_absent() -> None:
 def test_rendered_rod_hides_markers_and_is_nearer() -> None:
     spec = RecordingSpec(seed=5, object_passes=True, motion="rest", seconds=5.0, sensor_noise=False)
     pictures = SimulatedRecording(spec)
-    frames = range(0, len(pictures), 15)
+    frames = range(0, len(pictures), 8)
     shares = [pictures.visible_share(i).sum() for i in frames]
     assert shares[0] > 5.5
     worst = frames[int(np.argmin(shares))]
