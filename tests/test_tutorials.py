@@ -26,6 +26,8 @@ def test_tutorials_run_to_their_ends_and_draw(tmp_path: Path, monkeypatch: pytes
         for cell in notebook.cells:
             for long, short in SHORTER.items():
                 cell.source = cell.source.replace(long, short)
+    for number, cell in enumerate(cells):
+        cell.id = f"cell-{number}"
     whole = nbformat.v4.new_notebook(cells=cells, metadata=notebooks[0].metadata)
     NotebookClient(whole, timeout=280, resources={"metadata": {"path": str(tmp_path)}}).execute()
     for path, notebook in zip(TUTORIALS, notebooks, strict=True):

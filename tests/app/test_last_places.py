@@ -13,3 +13,7 @@ def test_recent_locations_are_kept_per_kind_until_missing(tmp_path: Path) -> Non
         (tmp_path / kind).mkdir()
         places.save(kind, str(tmp_path / kind))  # type: ignore[arg-type]
     again = RecentLocations(tmp_path)
+    assert again.folder("reports") == str(tmp_path / "reports")
+    assert again.folder("recordings") == str(tmp_path / "recordings")
+    (tmp_path / "reports").rmdir()
+    assert again.folder("reports") != str(tmp_path / "reports")
