@@ -45,7 +45,6 @@ from carpus.ui.kit.language import current_language
 from carpus.ui.report.home_page import HomeProgress, HomeReport, HomeTask
 from carpus.ui.report.session_page import build_session_report
 from carpus.ui.screens.patients.patient_store import MAX_LISTED_PATIENTS, MeasureWithChange, PatientCard
-from tests.moments import with_moment
 
 FPS = 30.0
 NOW = datetime(2026, 11, 20, 11, 36, tzinfo=timezone(timedelta(hours=1)))
@@ -370,24 +369,26 @@ def session(
 ) -> Session:
     """A stored session of the simulated patient, its angles scaled to a share of the full range."""
     pictures = simulated(motion, seconds, speed_hz, side)
-    frames = [
-        with_moment(frame, angles_rad=frame.kinematics.angles_rad * scale)
-        for frame in tracked_frames(pictures, tuple(hidden), tuple(lost))
-    ]
+    status, moved, markers, quality = _stack_frames(pictures, tuple(hidden), tuple(lost))
+    scaled = replace(moved, angles_rad=scale * moved.angles_rad)
     return build_session(
-        pictures, when, exercise, session_id, tuple(events),
-        status=np.array([int(frame.status) for frame in frames]),
-        motion=stack_states(frames),
-        markers=MarkerSeries(
-            np.array([frame.marker_position_cam_m for frame in frames]),
-            np.array([frame.marker_measured_px for frame in frames]),
-            np.array([frame.marker_measured_depth_m for frame in frames]),
-            np.array([frame.doubted for frame in frames]),
-        ),
-        quality=QualitySeries(
-            np.zeros(len(frames), int), np.ones((len(frames), 3)), np.full(len(frames), 6.0), np.full(len(frames), 12)
-        ),
+        pictures, when, exercise, session_id, tuple(events), status=status, motion=scaled, markers=markers,
+        quality=quality,
     )  # fmt: skip
+
+
+@lru_cache(maxsize=32)
+def _stack_frames(
+    pictures: SimulatedRecording, hidden: tuple[tuple[float, float, str], ...], lost: tuple[tuple[float, float], ...]
+) -> tuple[np.ndarray, Motion, MarkerSeries, QualitySeries]:
+    frames, count = tracked_frames(pictures, hidden, lost), len(pictures.truth.time_s)
+    names = ("marker_position_cam_m", "marker_measured_px", "marker_measured_depth_m", "doubted")
+    return (
+        np.array([int(frame.status) for frame in frames]),
+        stack_states(frames),
+        MarkerSeries(*(np.array([getattr(frame, name) for frame in frames]) for name in names)),
+        QualitySeries(np.zeros(count, int), np.ones((count, 3)), np.full(count, 6.0), np.full(count, 12)),
+    )
 
 
 _FIGURES: dict[tuple[int, str, str], tuple[Session, SessionResults]] = {}

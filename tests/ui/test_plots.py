@@ -270,6 +270,7 @@ def test_chart_cursor_can_be_dragged(qtbot: QtBot, view: SessionChart) -> None:
     view.show_window((5.0, 15.0))
     moved.clear()
     panel = view.plots[0].visible_panel
+    assert view._dots.getData()[0] == pytest.approx([float(panel.x(8.0))] * 3), "those of all panels lie on it"
     drag(qtbot, view.mouse_target, QPointF(round(float(panel.x(8.0))), panel.box.center().toPoint().y()), 60)
     assert moved
     assert view._window == (5.0, 15.0)
