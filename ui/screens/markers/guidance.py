@@ -95,14 +95,19 @@ class GuidancePanel(QWidget):
         self._column.invalidate()
         return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
 
+    def _show_step(self, state: State, step: str, title: str, instruction: str) -> None:
+        self.step_label.show_state(state, step, token=state if state in ("warn", "bad") else "text2")
+        self.title_label.setText(title)
+        self.instruction_label.setText(instruction)
+
     def show_preview(self, calibrator: HandCalibrator) -> None:
-        self.step_label.show_state("none", self.tr("Image"))
-        self.title_label.setText(self.tr("Lay the hand flat and still"))
-        self.instruction_label.setText(
-            self.tr("Palm down, fingers as straight as possible, forearm in line. Then take the image.")
+        self._show_step(
+            "none",
+            self.tr("Image"),
+            self.tr("Lay the hand flat and still"),
+            self.tr("Palm down, fingers as straight as possible, forearm in line. Then take the image."),
         )
-        order = calibrator.protocol.markers
-        self.hand_drawing.show_markers(calibrator.side, dict.fromkeys(order, "later"))
+        self.hand_drawing.show_markers(calibrator.side, dict.fromkeys(calibrator.protocol.markers, "later"))
         self.verdict_panel.hide()
         self.primary_button.setEnabled(True)
         self.primary_button.set_label(self.tr("Take the image"), icon="", hint=ENTER_KEY)
@@ -113,46 +118,35 @@ class GuidancePanel(QWidget):
 
         ``sees_none``: there are no candidates; ``is_proposing``: labels are being proposed.
         """
-        asked, to_go = len(labels.protocol.markers), len(labels.missing)
-        number = labels.protocol.markers.index(labels.current) + 1
-        self.step_label.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
-        self.title_label.setText(click_instruction(labels.current))
-        self.instruction_label.setText(marker_placement(labels.current))
+        markers, to_go = labels.protocol.markers, len(labels.missing)
+        step = self.tr("Marker {number} of {asked}")
+        step = step.format(number=markers.index(labels.current) + 1, asked=len(markers))
+        title, instruction = click_instruction(labels.current), marker_placement(labels.current)
+        state: State = "none"
         if labels.is_complete:  # nothing is left to click while they are checked
-            self.step_label.show_state("good", self.tr("All markers found"))
-            self.title_label.setText(self.tr("Checking the markers…"))
-            self.instruction_label.setText(self.tr("Hold the hand in this position until measuring begins."))
+            state, step, title = "good", self.tr("All markers found"), self.tr("Checking the markers…")
+            instruction = self.tr("Hold the hand in this position until measuring begins.")
+        elif sees_none:  # said at once, before anybody looks for what is not there
+            state, step = "warn", self.tr("No blue marker in the image")
+            title = self.tr("No blue marker is visible")
+            instruction = self.tr(
+                "No markers found. Check that they are on the hand, the hand is in view and the light is good."
+            )
+        left = self.tr("1 marker left to click") if to_go == 1 else self.tr("{count} markers left to click")
+        words = self.tr("Start measuring · {left}").format(left=left.format(count=to_go))
+        primary = words if to_go else self.tr("Checking the markers…")
+        can_accept = not is_proposing and bool(labels.proposals)
+        if is_proposing:
+            state, step = "none", self.tr("Looking for the markers…")
+        elif can_accept:
+            state, step, title, instruction, primary = proposal_words(labels)
+        self._show_step(state, step, title, instruction)
         self.hand_drawing.show_markers(labels.side, _hand_states(labels, ()))
         self.verdict_panel.hide()
-        left = (
-            self.tr("1 marker left to click")
-            if to_go == 1
-            else self.tr("{count} markers left to click").format(count=to_go)
-        )
-        words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
-        self.primary_button.setEnabled(False)
-        self.primary_button.set_label(words, icon="", hint="")
-        self.second_button.hide()
-        if sees_none:  # said at once, before anybody looks for what is not there
-            self.step_label.show_state("warn", self.tr("No blue marker in the image"), token="warn")
-            self.title_label.setText(self.tr("No blue marker is visible"))
-            self.instruction_label.setText(
-                self.tr("No markers found. Check that they are on the hand, the hand is in view and the light is good.")
-            )
-        if is_proposing:
-            self.step_label.show_state("none", self.tr("Looking for the markers…"))
-        elif labels.proposals:
-            self._show_proposals(labels)
-
-    def _show_proposals(self, labels: LabelState) -> None:
-        state, step, title, instruction, primary = proposal_words(labels)
-        self.step_label.show_state(state, step, token="warn" if state == "warn" else "text2")
-        self.title_label.setText(title)
-        self.instruction_label.setText(instruction)
-        self.primary_button.setEnabled(True)
-        self.primary_button.set_label(primary, icon="", hint=ENTER_KEY)
+        self.primary_button.setEnabled(can_accept)
+        self.primary_button.set_label(primary, icon="", hint=ENTER_KEY if can_accept else "")
         self.second_button.set_label(self.tr("Click the markers"), hint="C")
-        self.second_button.show()
+        self.second_button.setVisible(can_accept)
 
     def show_verdict(self, labels: LabelState, outcome: MeasuredHand, remedy: Remedy) -> None:
         """Show the checks and the most likely remedy."""
@@ -164,9 +158,8 @@ class GuidancePanel(QWidget):
         self.verdict_panel.show()
         self.primary_button.setEnabled(True)
         if verdict.is_good:
-            self.step_label.show_state("good", self.tr("All markers found"))
-            self.title_label.setText(self.tr("Ready to measure"))
-            self.instruction_label.setText(self.tr("Hold the hand in this position until measuring begins."))
+            hold = self.tr("Hold the hand in this position until measuring begins.")
+            self._show_step("good", self.tr("All markers found"), self.tr("Ready to measure"), hold)
             self.primary_button.set_label(self.tr("Start measuring"), icon="play", hint=ENTER_KEY)
             self.second_button.hide()
         else:
@@ -174,10 +167,9 @@ class GuidancePanel(QWidget):
                 verdict.findings,
                 key=lambda finding: (finding.blocks, finding.kind in LABEL_FINDINGS, finding.kind in DOUBT_FINDINGS),
             )
-            self.step_label.show_state(state, words, token="bad" if state == "bad" else "warn")
             told = finding_words(first)
-            self.title_label.setText(told.summary.rstrip("."))
-            self.instruction_label.setText(" ".join(part for part in (told.data_safety, told.remedy) if part))
+            instruction = " ".join(part for part in (told.data_safety, told.remedy) if part)
+            self._show_step(state, words, told.summary.rstrip("."), instruction)
             words, key = {
                 "swap": (self.tr("Swap the two"), ENTER_KEY), "click_these": (self.tr("Click the marker again"), "C"),
                 "correct": (self.tr("Correct labels"), ""), "take_spot": (self.tr("Use that spot"), ""),
