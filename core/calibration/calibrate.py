@@ -87,13 +87,9 @@ MAX_HAND_LENGTH_CHANGE = 0.15
 
 @dataclass(frozen=True, slots=True)
 class NeutralCapture:
-    """Measurements of the M markers over the F still frames; NaN where not measured.
+    """Measurements (F, M) of the M markers over the F still frames, ``pixel`` (F, M, 2); NaN where not measured.
 
-    Attributes
-    ----------
-    pixel : (F, M, 2)
-    depth_m, depth_sd_m, area_px : (F, M); standard deviation as stated by the detector
-    duration_s : from the first to the last still frame
+    The standard deviation is that stated by the detector, the duration from the first to the last still frame.
     """
 
     pixel: FloatArray
@@ -310,8 +306,7 @@ def capture_neutral_pose(
     frames = iter(detections)
     start_s, blobs = next(frames)
     start_px = blobs.pixel[blob_index]
-    pixels, depths, stated_sds = [start_px], [blobs.depth_m[blob_index]], [blobs.depth_sd_m[blob_index]]
-    areas = [blobs.area_px[blob_index]]
+    measured = [_measure_blobs(blobs, blob_index)]
     duration_s = 0.0
     for time_s, blobs in frames:
         if time_s - start_s > settings.still_s:
@@ -327,11 +322,13 @@ def capture_neutral_pose(
         if float(np.hypot(*moved_px)) > MAX_STILL_MOTION_PX:
             break
         duration_s = time_s - start_s
-        pixels.append(np.where(near[:, None], blobs.pixel[nearest], np.nan))
-        depths.append(np.where(near, blobs.depth_m[nearest], np.nan))
-        stated_sds.append(np.where(near, blobs.depth_sd_m[nearest], np.nan))
-        areas.append(np.where(near, blobs.area_px[nearest], np.nan))
-    return NeutralCapture(np.stack(pixels), np.stack(depths), np.stack(stated_sds), np.stack(areas), duration_s)
+        measured.append(tuple(np.where(near, each.T, np.nan).T for each in _measure_blobs(blobs, nearest)))
+    pixel, depth_m, depth_sd_m, area_px = map(np.stack, zip(*measured, strict=True))
+    return NeutralCapture(pixel, depth_m, depth_sd_m, area_px, duration_s)
+
+
+def _measure_blobs(blobs: Detections, index: NDArray[np.int64]) -> tuple[FloatArray, ...]:
+    return blobs.pixel[index], blobs.depth_m[index], blobs.depth_sd_m[index], blobs.area_px[index]
 
 
 def measure_hand(

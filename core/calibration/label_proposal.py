@@ -49,13 +49,9 @@ DEFAULT_DEPTH_M = 0.7
 
 @dataclass(frozen=True, slots=True)
 class LabelProposal:
-    """Proposed blob of each marker.
+    """Proposed ``blob`` (M,) of each marker, -1 for none, and whether no other label is nearly as good.
 
-    Attributes
-    ----------
-    blob : (M,) index, -1 for none
-    is_sure : (M,) no other label is nearly as good
-    misfit_m : (M,) distance of the blob from its place on the average hand, NaN without one
+    ``misfit_m`` (M,) is the distance of the blob from its place on the average hand, NaN without one.
     """
 
     blob: IntArray

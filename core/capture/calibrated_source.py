@@ -88,7 +88,7 @@ def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSour
 
 def load_stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None:
     """Return the newest readable calibration of a camera, or None."""
-    for path in reversed(list_calibration_files(data_folder, serial)):
+    for path in sorted((data_folder / CAMERAS_FOLDER).glob(f"{file_stem(serial)}_*{SUFFIX}"), reverse=True):
         try:
             info = read_camera_info(path)
         except CarpusFault:
@@ -96,11 +96,6 @@ def load_stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None
         if info.calibration is not None and info.calibration.serial == serial:
             return info
     return None
-
-
-def list_calibration_files(data_folder: Path, serial: str) -> list[Path]:
-    """Return all stored calibrations of a camera, oldest first."""
-    return sorted((data_folder / CAMERAS_FOLDER).glob(f"{file_stem(serial)}_*{SUFFIX}"))
 
 
 def new_calibration_path(data_folder: Path, serial: str, time: datetime) -> Path:

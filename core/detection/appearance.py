@@ -138,14 +138,8 @@ def learn_appearance(
     """Learn the appearance of the discs near clicks (M, 2).
 
     First the colours right under the clicks, most of which are paper, against the ring around them, most of which is
-    not; then again from the discs so found, until they settle.
-
-    Returns
-    -------
-    appearance : MarkerAppearance
-        Colours and size.
-    centre_px : (M, 2)
-        Rough centres of the discs, NaN where none was found.
+    not; then again from the discs so found, until they settle. Return also the rough centres (M, 2) of the discs, NaN
+    where none was found.
     """
     hsv = to_hsv(frame.color_rgb)
     shape = hsv.shape[:2]

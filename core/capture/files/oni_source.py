@@ -125,13 +125,7 @@ def read_file_identity(path: Path) -> tuple[int, int]:
 
 
 def read_contents(path: Path) -> OniContents:
-    """Read the structure of a complete .oni file.
-
-    Raises
-    ------
-    RecordingMissing, RecordingUnreadable, RecordingDamaged, RecordingUnsupported, RecordingEmpty, TimesUnordered
-        The file cannot be played.
-    """
+    """Read the structure of a complete .oni file; raises a :class:`CarpusFault` if it cannot be played."""
     if not path.is_file():
         raise errors.RecordingMissing(path)
     try:

@@ -16,7 +16,6 @@ from carpus.app.sources import open_recording
 from carpus.core.capture.calibrated_source import (
     CalibratedSource,
     compute_correction_table,
-    list_calibration_files,
     load_stored_calibration,
     new_calibration_path,
     with_stored_calibration,
@@ -26,6 +25,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.errors import CameraFileUnreadable
+from carpus.core.model.names import CAMERAS_FOLDER
 from carpus.core.model.types import Frame
 from carpus.core.pipeline.track import describe_source
 from carpus.core.simulation.sensor import depth_scale
@@ -106,7 +106,9 @@ def test_stored_calibration_newest_of_the_camera_is_used(tmp_path: Path) -> None
     stored(tmp_path, SERIAL, 3, scale=1.01)
     stored(tmp_path, SERIAL, 9, scale=1.02)
     stored(tmp_path, SERIAL + "-b", 12, scale=1.03)
-    for scale, path in zip((1.02, 1.01), reversed(list_calibration_files(tmp_path, SERIAL)), strict=True):
+    for scale, path in zip(
+        (1.02, 1.01), sorted((tmp_path / CAMERAS_FOLDER).glob(f"{SERIAL}_*"), reverse=True), strict=True
+    ):
         found = load_stored_calibration(tmp_path, SERIAL)
         assert found is not None
         assert found.calibration is not None
@@ -136,7 +138,7 @@ def test_calibrated_source_corrects_depth_to_a_tenth_mm() -> None:
 @pytest.mark.parametrize("line", ["depth_scale: 7.0", "depth_scale: many", "depth_offset_m: .nan"])
 def test_stored_calibration_implausible_is_refused(tmp_path: Path, line: str) -> None:
     stored(tmp_path, SERIAL, 3, scale=1.01, offset_m=0.002)
-    path = list_calibration_files(tmp_path, SERIAL)[0]
+    (path,) = (tmp_path / CAMERAS_FOLDER).iterdir()
     name = line.split(":")[0]
     path.write_text(re.sub(rf"{name}: [-\d.]+", line, path.read_text()))
     with pytest.raises(CameraFileUnreadable):
