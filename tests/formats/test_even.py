@@ -44,9 +44,3 @@ def test_uniform_times_of_jitter_one_row_per_frame(seed: int, count: int) -> Non
     assert len(even) == count
     wanted = even.start_s + np.arange(count) / 30.0
     assert np.allclose(even.interpolate(7.0 * times), 7.0 * wanted, atol=1e-9), "a straight movement stays straight"
-
-
-def test_uniform_times_lie_in_the_middle_of_jittering_stamps() -> None:
-    times = np.arange(50) / 30.0
-    late = np.concatenate(([0.3 / 30.0], times[1:]))
-    assert uniform_times(late, 30.0).start_s == pytest.approx(0.0, abs=1e-9)

@@ -18,10 +18,7 @@ from carpus.core.measures.motion_range import (
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.model.hand.exercises import get_exercise
 from carpus.core.model.hand.protocols import HAND21, joint_angle_names
-from carpus.core.results.ranges import flexion_joints, measure_joint_ranges
-from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import compute_truth
+from carpus.core.results.ranges import measure_joint_ranges
 
 TIME_S = np.arange(0.0, 12.0, 1.0 / 30.0)
 REPETITIONS = tuple(Repetition(4.0 * k, 4.0 * k + 4.0, 1.0) for k in range(3))
@@ -124,24 +121,15 @@ def test_valid_joints_exclude_uncertain_and_predicted_samples() -> None:
     assert valid_joints(np.array([0, 1, 0]), seen, np.zeros((3, 1)), sd)[:, 0].tolist() == [True, False, False]
 
 
-def test_finger_ranges_of_a_simulated_hand_match_its_motion() -> None:
-    truth = compute_truth(Scene(RecordingSpec(seed=3, protocol="hand21", motion="fist", seconds=12.0)))
-    names = joint_angle_names(False)
-    always = np.ones(len(truth.time_s), dtype=bool)
-    sd = np.full(len(truth.time_s), math.radians(2.0))
-    tracks = {
-        name: joint_track(name, truth.time_s, truth.joint_angles_rad[:, k], sd, always) for k, name in enumerate(names)
-    }
-    rows = {
-        (row.subject, row.quantity): row for row in measure_joint_ranges(tracks, (), get_exercise("FIST_COMPOSITE"))
-    }
-    angles = dict(zip(names, np.degrees(truth.joint_angles_rad).T, strict=True))
-    for name in names:
-        assert rows[name, "arc"].mean == pytest.approx(float(np.ptp(angles[name])), abs=0.6)
-        assert not rows[name, "arc"].is_lower_bound
-    for finger in (1, 2, 3, 4, 5):
-        joints, inferred = flexion_joints(finger, names)
-        bend = [np.maximum(angles[name], 0.0) for name in joints]
-        bend[-1] = bend[-1] * (5.0 / 3.0 if inferred else 1.0)
-        expected = float(np.ptp(np.sum(bend, axis=0)))
-        assert rows[f"TAM{finger}", "arc"].mean == pytest.approx(expected, abs=1.0)
+def test_finger_measures_are_of_its_own_joints() -> None:
+    names = (
+        "MCP1_flexion",
+        "IP1_flexion",
+        *(f"{joint}{finger}_flexion" for finger in (2, 3) for joint in ("MCP", "PIP")),
+    )
+    tracks = {name: make_track(name, 10.0 * (k + 1) * WAVE) for k, name in enumerate(names)}
+    rows = measure_joint_ranges(tracks, REPETITIONS, get_exercise("FIST_COMPOSITE"))
+    arcs = {row.subject: row.mean for row in rows if row.quantity == "arc"}
+    totals = {"TAM1": 10.0 + 20.0, "TAM2": 30.0 + 40.0 * 5.0 / 3.0, "TAM3": 50.0 + 60.0 * 5.0 / 3.0}
+    assert arcs == pytest.approx(totals | {name: 10.0 * (k + 1) for k, name in enumerate(names)}, abs=0.8)
+    assert not any(row.is_lower_bound for row in rows)

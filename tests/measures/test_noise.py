@@ -66,21 +66,6 @@ def test_stroke_speed_and_smoothness_match_the_movement(
         assert np.mean([other.sparc - one.sparc for one, other in judged]) == pytest.approx(0.0, abs=0.1)
 
 
-@EITHER
-def test_stroke_smoothness_lost_in_noise_is_unknown(smoothed: bool) -> None:
-    take = track_simulated("flexion", 30.0, 0.1, 31, 0.3)
-    true, found = find_strokes(take, 1, smoothed=None), find_strokes(take, 1, smoothed=smoothed)
-    assert sum(stroke.too_slow_to_be_smooth for stroke in found) >= len(found) - 1
-    for one, other in zip(true, found, strict=True):
-        assert (
-            other.too_slow
-            or math.isnan(other.peak_speed_rad_s)
-            or other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=0.12)
-        )
-        assert math.isnan(other.sparc) or other.sparc == pytest.approx(one.sparc, abs=0.1)
-        assert math.isnan(other.peaks) or other.peaks == 1.0
-
-
 def make_rise_and_return() -> Signal:
     angle = make_repetitions([(60.0, 1.0)])
     return resample_evenly(np.arange(len(angle)) / RATE, angle)
@@ -204,7 +189,8 @@ def test_stroke_speed_of_a_slow_stroke_is_not_that_of_noise(
     strokes = [stroke for stroke in find_repetitions(angle.column(0)).strokes if not stroke.is_half]
     found = [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in strokes]
     assert len(found) == len(true)
-    most = 0.25 if motion == "pronosupination" else 0.15  # measured 16 % and 9 %
+    assert motion != "flexion" or sum(stroke.too_slow_to_be_smooth for stroke in found) >= len(found) - 1
+    most = 0.25 if motion == "pronosupination" else 0.12  # measured 16 % and 9 %
     for one, other in zip(true, found, strict=True):
         assert other.too_slow or other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=most, nan_ok=True)
         assert not other.movement_time_s < 0.6 * one.movement_time_s  # unknown is no wrong figure

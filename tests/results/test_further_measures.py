@@ -19,7 +19,6 @@ from carpus.core.results.norms import (
     Person,
     compute_total_shares,
     grade_share,
-    grip_norm_kg,
     wrist_norm,
 )
 from carpus.core.results.session_results import SessionResults, compute_session_results
@@ -245,15 +244,6 @@ def test_wrist_norm_of_a_person_replaces_the_one_for_adults_where_a_source_has_i
         assert own[2].low_deg == own[0].low_deg + own[1].low_deg
         assert own[0] != adults
     assert wrist_norm("radial", 1, get_exercise("WRIST_RU"), Person("male", 30)) is None, "not the trained angle"
-
-
-def test_grip_norm_is_by_sex_and_falls_after_middle_age() -> None:
-    for age in range(17, 91):
-        women, men = (grip_norm_kg(Person(sex, age)) for sex in ("female", "male"))
-        assert men[0] > women[0] > 20.0
-    means = [grip_norm_kg(Person("male", age))[0] for age in (42, 60, 75, 90)]
-    assert means == sorted(means, reverse=True)
-    assert [grip_norm_kg(one) for one in (None, Person("diverse", 40), Person("male", 91))] == [None] * 3
 
 
 def test_age_of_a_person_rises_on_the_birthday() -> None:

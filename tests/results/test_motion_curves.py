@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from carpus.core.results.motion_curves import compute_motion_curves, motion_columns
 from tests.ui.fakes import session
@@ -38,16 +37,3 @@ def test_motion_curves_axes_are_of_hand_in_w0() -> None:
     plain = np.arctan2(made.motion.rotation_w2_w0[0, 1, 0], made.motion.rotation_w2_w0[0, 0, 0])
     assert abs(angle - plain - 0.2) < 1e-3
     assert curves.joint_names == ()
-
-
-def test_motion_curves_zyz_gives_back_rotation() -> None:
-    made = session()
-    table = motion_columns(made, made.motion)
-    zyz = np.column_stack([table[f"zyz_{name}_deg"] for name in ("alpha", "beta", "gamma")])
-    known = np.isfinite(zyz[:, 0])
-    assert known.mean() > 0.8
-    turned = Rotation.from_euler("ZYZ", zyz[known], degrees=True).as_matrix()
-    assert np.allclose(turned, made.motion.rotation_w2_w0[known], atol=1e-9)
-    assert (table["zyz_alpha_sd_deg"][known] <= 30.0).all()
-    assert np.isfinite(zyz[:, 1]).all(), "beta is known also where the other two are not"
-    assert np.isfinite(table["zyz_alpha_plus_gamma_deg"]).mean() > 0.95

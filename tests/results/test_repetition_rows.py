@@ -15,7 +15,7 @@ from numpy.lib.recfunctions import repack_fields
 
 from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.repetitions import Repetition, RepetitionAnalysis, Stroke, find_repetitions
-from carpus.core.measures.signals import resample_evenly
+from carpus.core.measures.signals import Signal, resample_evenly
 from carpus.core.results.repetition_rows import (
     HIDDEN,
     RepetitionChoices,
@@ -88,15 +88,6 @@ def test_repetitions_of_file_results_and_recount_agree(which: str, session: Sess
         ]
 
 
-def test_choices_change_results_not_file(session: Session) -> None:
-    figures = compute_session_results(session, RepetitionChoices({1: "pain"}, {2: (11.0, 15.0)}))
-    rows = [one.row for one in figures.repetitions]
-    assert [row.reason for row in rows if row] == ["", "pain", ""]
-    assert [row.counted for row in rows if row] == [True, False, True]
-    assert (rows[2].start_s, rows[2].end_s) == (11.0, 15.0)
-    assert all(row.counted for row in session.repetitions.rows)
-
-
 def test_repetition_hardly_seen_is_hidden(session: Session) -> None:
     time_s = session.timestamp_s - session.timestamp_s[0]
     status = np.asarray(session.status).copy()
@@ -121,9 +112,14 @@ def trained_in(knots_s: list[float], knots_deg: list[float], found: RepetitionAn
     noise_deg = np.random.default_rng(4).normal(0.0, 0.2, len(time_s))
     angle = resample_evenly(time_s, np.radians(np.interp(time_s, knots_s, knots_deg) + noise_deg))
     sd = replace(angle, value=np.full(len(angle.value), 0.01))
-    return TrainedAngle(
-        "flexion", found or find_repetitions(angle), angle, sd, angle, False, lambda some: motion_range(angle, sd, some)
-    )
+    return train(angle, sd, found)
+
+
+def train(
+    angle: Signal, sd: Signal, found: RepetitionAnalysis | None = None, *, smoothed: bool = False
+) -> TrainedAngle:
+    detected = found or find_repetitions(angle)
+    return TrainedAngle("flexion", detected, angle, sd, angle, smoothed, lambda some: motion_range(angle, sd, some))
 
 
 def test_repetitions_of_motion_to_both_sides() -> None:
@@ -186,9 +182,8 @@ def test_repetition_cut_in_half_is_listed_not_counted(by: str, ends: str) -> Non
         value = np.concatenate((piece[::-1], still, np.tile(one, 3), still))
     time_s = np.arange(len(value)) / 30.0
     angle, sd = resample_evenly(time_s, value), resample_evenly(time_s, np.full(len(value), 0.01))
-    found = find_repetitions(angle)
-    trained = TrainedAngle("flexion", found, angle, sd, angle, False, lambda some: motion_range(angle, sd, some))
-    rows = [each.row for each in measure_repetitions(trained, RepetitionChoices())]
+    measured = measure_repetitions(train(angle, sd), RepetitionChoices())
+    rows = [each.row for each in measured]
     whole = [row for row in rows if row.counted]
     (cut,) = [row for row in rows if not row.counted]
     assert cut.reason == f"cut_by_{by}"
@@ -203,7 +198,7 @@ def test_repetition_cut_in_half_is_listed_not_counted(by: str, ends: str) -> Non
     edge_s = cut.start_s if by == "start" else cut.end_s - seen_until_s
     assert edge_s == pytest.approx(0.0, abs=1e-6), "to the last picture"
     # Its quickest moment may be in what was not seen.
-    short = [stroke for each in measure_repetitions(trained, RepetitionChoices()) for stroke in each.strokes]
+    short = [stroke for each in measured for stroke in each.strokes]
     assert all(math.isnan(each.peak_speed_rad_s) or each.stroke.end_s - each.stroke.start_s > 1.8 for each in short)
 
 
@@ -249,9 +244,7 @@ def rows_of(way_deg: dict[float, float], hidden: tuple[float, float] = (0.0, 0.0
     seen = ~((time_s > hidden[0]) & (time_s < hidden[1]))
     angle = resample_evenly(time_s, np.radians(value), seen)
     sd = resample_evenly(time_s, np.full(len(time_s), np.radians(0.3)), seen)
-    found = find_repetitions(angle)
-    trained = TrainedAngle("flexion", found, angle, sd, angle, True, lambda some: motion_range(angle, sd, some))
-    return [one.row for one in measure_repetitions(trained, RepetitionChoices())]
+    return [one.row for one in measure_repetitions(train(angle, sd, smoothed=True), RepetitionChoices())]
 
 
 def test_gap_on_the_way_adds_no_rest() -> None:

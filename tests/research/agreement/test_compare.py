@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.formats import c3d, mot, trc
+from carpus.core.formats import c3d, trc
 from carpus.core.model import so3
 from carpus.core.model.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.model.hand.protocols import WRIST_ANGLES
@@ -92,15 +92,6 @@ def test_compare_whole_turns_agree(session: Session) -> None:
     for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
         found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
         assert all(one.figures_deg.largest_difference < 2.0 for one in found.pairs)
-
-
-def test_compare_session_with_its_exports_agrees(session: Session, tmp_path: Path) -> None:
-    take = build_take(replace(session, path=tmp_path / "s.h5"), "s")
-    mot.write(take, tmp_path)
-    found = compare_session(session, read_reference(tmp_path / "s.mot"))
-    assert [one.name for one in found.pairs] == list(WRIST_ANGLES)
-    assert max(one.figures_deg.rmse for one in found.pairs) < 0.05
-    assert min(len(one.time_s) for one in found.pairs) >= len(session) - 2
 
 
 @pytest.mark.parametrize("kind", ["c3d", "trc"])

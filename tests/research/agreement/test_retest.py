@@ -48,12 +48,6 @@ def readings(rng: np.random.Generator, people: int, times: int, error: float, ra
     return truth + rng.normal(0.0, error, (people, times)) + rng.normal(0.0, rater, (1, times))
 
 
-def test_retest_of_two_equals_the_reference() -> None:
-    pairs = readings(np.random.default_rng(2), 11, 2, 3.0)
-    difference = pairs[:, 1] - pairs[:, 0]
-    assert compute_retest(pairs.tolist()).sem == pytest.approx(math.sqrt(float((difference**2).mean()) / 2.0))
-
-
 @pytest.mark.parametrize(("times", "rater"), [(3, 0.0), (4, 2.0)])
 def test_retest_interval_has_its_coverage(times: int, rater: float) -> None:
     rng = np.random.default_rng(times)
