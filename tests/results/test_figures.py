@@ -195,6 +195,9 @@ def test_find_previous_and_other_hand_return_last_included(figures: SessionResul
     history += [days_ago(figures, days, side="left") for days in (3, 2)] + [figures]
     assert (find_previous(history, figures).session_id, find_other_hand(history, figures).session_id) == ("5", "2")
     assert find_previous([history[0], replace(history[1], is_excluded=True)], figures) is history[0]
+    first = history[4]
+    again = replace(first, session_id="again", created=figures.created + timedelta(days=1))
+    assert find_other_hand([first, again], figures) is find_other_hand([again, first], figures) is again
 
 
 def test_session_results_pain_and_notes_from_events() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from carpus.core.results.motion_curves import compute_motion_curves, motion_columns
 from tests.ui.fakes import session
@@ -24,6 +25,10 @@ def test_motion_curves_match_session() -> None:
     ):
         told = np.column_stack([table[name.format(letter)] for letter in "xyz"])
         assert np.allclose(told, stored, equal_nan=True), name
+    zyz = np.column_stack([table[f"zyz_{name}_deg"] for name in ("alpha", "beta", "gamma")])
+    known = np.isfinite(zyz).all(axis=1)
+    turned = Rotation.from_euler("ZYZ", zyz[known], degrees=True).as_matrix()
+    assert np.allclose(turned, motion.rotation_w2_w0[known], atol=1e-9)
     gone = (curves.time_s >= 5.0) & (curves.time_s < 6.0)
     assert np.isnan(curves.position_mm[gone]).all()
     assert np.isnan(curves.joint_mm[gone]).all()

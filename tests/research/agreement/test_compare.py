@@ -92,6 +92,9 @@ def test_compare_whole_turns_agree(session: Session) -> None:
     for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
         found = compare_session(session, replace(right, angles_rad=angles), lag_s=0.0)
         assert all(one.figures_deg.largest_difference < 2.0 for one in found.pairs)
+    late = compare_session(session, right, lag_s=0.4)
+    assert (late.shift.lag_s, late.pairs[1].name) == (0.4, "flexion")
+    assert late.pairs[1].figures_deg.sd > 5.0, "the lag that was given is used"
 
 
 @pytest.mark.parametrize("kind", ["c3d", "trc"])
