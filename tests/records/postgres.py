@@ -67,23 +67,13 @@ class Cluster:
         """As if it were killed."""
         self._call("pg_ctl", "-D", str(self.folder / "data"), "-m", how, "-w", "stop")
 
-    def kill(self) -> None:
-        """The whole of it at one moment, as when the power fails."""
-        killed = self.processes()
-        for one in killed:
-            with suppress(ProcessLookupError):
-                os.kill(one, signal.SIGKILL)
-        while any(_runs(one) for one in killed):
-            time.sleep(0.02)
-        (self.folder / "data" / "postmaster.pid").unlink()  # where nobody fetches the dead, it says that it runs
-
-    def processes(self, of: str = "") -> list[int]:
-        """The server's, the one that starts all others first; or those that serve somebody's connection."""
+    def signal(self, number: signal.Signals, *, all_of_them: bool = True) -> None:
+        """Send a signal to the server, or only to those of its processes that serve a connection."""
         first = int((self.folder / "data" / "postmaster.pid").read_text().split()[0])
         others = [int(one) for one in Path(f"/proc/{first}/task/{first}/children").read_text().split()]
-        if not of:
-            return [first, *others]
-        return [one for one in others if f": {of} " in Path(f"/proc/{one}/cmdline").read_text(errors="replace")]
+        serving = [one for one in others if ": carpus " in Path(f"/proc/{one}/cmdline").read_text(errors="replace")]
+        for one in [first, *others] if all_of_them else serving:
+            os.kill(one, number)
 
     def new_database(self, name: str, like: str = "template1") -> str:
         """An empty one, or a copy of another that nobody uses; its url."""
@@ -97,11 +87,3 @@ class Cluster:
             command, check=True, user=self._as, cwd=self.folder, stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL, env={**os.environ, "LC_ALL": "C"},
         )  # fmt: skip
-
-
-def _runs(process: int) -> bool:
-    """Whether it does; what nobody has fetched yet is dead all the same."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False

@@ -240,15 +240,28 @@ def test_plan_restore_lists_changes_and_restore_keeps_old_folder(data: Path, pla
     assert plan_restore(made, place, data, LogHistory()).replaced == ()
 
 
-def test_prune_backups_keeps_newest_and_one_per_month(data: Path, place: Path) -> None:
-    make_backups(data, place, 0, 1, 2, 40, 41, 70, 900)
-    assert prune_backups(place, 2, 24, NOW) == 3
-    left = [(NOW - one.made).days for one in list_backups(place)]
-    assert left == [0, 1, 40, 70]
+@pytest.mark.parametrize(
+    ("days", "keep", "months", "left"),
+    [
+        ((0, 1, 2, 40, 41, 70, 900), 2, 24, [0, 1, 40, 70]),
+        ((0, 1, 2, 3, -3, -2), 2, 0, [-3, -2, 0, 1]),  # made by a clock that ran ahead
+        ((0, 1, -3), 0, 1, [-3, 0]),  # the month's newest is that of a day that has been
+    ],
+)
+def test_prune_backups_keeps_newest_and_one_per_month(
+    data: Path, place: Path, days: tuple[int, ...], keep: int, months: int, left: list[int]
+) -> None:
+    made = make_backups(data, place, *days)
+    of_killed = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made[0].name}-2.json.part"]
+    for path in of_killed:
+        path.write_bytes(b"half")
+    assert prune_backups(place, keep, months, NOW) == len(days) - len(left)
+    assert [(NOW - one.made).days for one in list_backups(place)] == left
     for one in list_backups(place):
         verify_backup(place, one)
     needed = {file.sha256 for one in list_backups(place) for file in one.files}
     assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
+    assert not any(path.exists() for path in of_killed)
 
 
 def test_prune_backups_keeps_contents_of_newer_format(data: Path, place: Path) -> None:
@@ -373,19 +386,6 @@ def test_create_backup_missing_session_file_is_incomplete(data: Path, place: Pat
     assert "set_ups.json" in {one.path for one in made.files}, "all else is in it"
 
 
-def test_prune_backups_deletes_leftovers_of_killed_backup(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "place"
-    made = make_backup(data, place)
-    left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.part"]
-    for path in left:
-        path.write_bytes(b"half")
-    again = make_backup(data, place, NOW + timedelta(hours=1))
-    assert prune_backups(place, 9, 9, NOW) == 0
-    assert not any(path.exists() for path in left)
-    for one in (made, again):
-        verify_backup(place, one)
-
-
 class Trouble:
     """At one step that changes a name or a file of the disk: a kill, which tidies nothing up, or a full disk."""
 
@@ -505,14 +505,6 @@ def test_restore_without_data_folder_uses_log_of_newest_backup(data: Path, place
     assert restore(old, place, data, read_history(place, None)) == 1
     activate_restored(data, NOW)
     assert traces(data, linden, *NAMES) == []
-
-
-def test_prune_backups_future_date_costs_no_backup(data: Path, place: Path) -> None:
-    make_backups(data, place, 0, 1, 2, 3, -3, -2)
-    assert prune_backups(place, 2, 0, NOW) == 2
-    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0, 1]
-    assert prune_backups(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
-    assert [(NOW - one.made).days for one in list_backups(place)] == [-3, -2, 0]
 
 
 def test_restore_failing_leaves_no_settings(data: Path, place: Path, tmp_path: Path) -> None:

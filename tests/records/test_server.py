@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
 import sqlite3
 import time
 import uuid
-from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import replace
 from datetime import timedelta
@@ -44,7 +44,6 @@ from carpus.core.records.values import Patient
 from tests.app.test_library import set_up
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, T0, fill, measure, open_store, record, strip_stored_fields, traces
-from tests.torture.wire import Wire
 
 GOLDEN = Path(__file__).with_name("golden") / "version-1.sqlite3"
 VERSIONS = Path(schema.__file__).with_name("migrations") / "versions"
@@ -54,14 +53,6 @@ VERSIONS = Path(schema.__file__).with_name("migrations") / "versions"
 def there(cluster: Cluster) -> str:
     """The url of a database with empty tables."""
     return cluster.new_database(f"c{uuid.uuid4().hex[:12]}", "model")
-
-
-@pytest.fixture
-def wired(cluster: Cluster, there: str) -> Iterator[tuple[Wire, str]]:
-    """The wire to such a database, and the url through it."""
-    wire = Wire(cluster.port)
-    yield wire, there.replace(str(cluster.port), str(wire.port))
-    wire.close()
 
 
 def engine_of(url: str) -> Engine:
@@ -138,22 +129,22 @@ def test_server_away_typed_pseudonym_becomes_listed_patient(tmp_path: Path, ther
 
 
 def test_server_silent_is_left_after_seconds(
-    tmp_path: Path, wired: tuple[Wire, str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, cluster: Cluster, there: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server, "STALL_TIMEOUT_S", 0.5)
-    wire, url = wired
-    with open_store(tmp_path, url) as house:
+    with open_store(tmp_path, there) as house:
         linden = house.patients.add(LINDEN)
         session_id = measure(house, linden, T0)
-        wire.answers_come = False
-        with pytest.raises(ServerUnavailable):
-            session_records.add_comment(house.store, session_id, "not kept", "AB")
-        wire.cut()
-        wire.answers_come = True
+        cluster.signal(signal.SIGSTOP)
+        try:
+            with pytest.raises(ServerUnavailable):
+                session_records.add_comment(house.store, session_id, "not kept", "AB")
+        finally:
+            cluster.signal(signal.SIGCONT)
         house.store.server.ping()  # type: ignore[union-attr]
         session_records.add_comment(house.store, session_id, "kept", "AB")
         assert session_records.read_comments(house.store, session_id) == ["kept"]
-        wire.cut()
+        cluster.signal(signal.SIGTERM, all_of_them=False)
         assert house.names() == ["Linden 42"], "a line that was cut since then is made anew, and nobody hears of it"
 
 

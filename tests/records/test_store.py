@@ -365,7 +365,7 @@ def test_scan_assigns_file_by_patient_folder(tmp_path: Path, url: str) -> None:
         assert [(one.patient_id, one.session_count) for one in house.patients.search()] == [(given, 2)]
 
 
-def test_home_plan_is_saved_with_patient(tmp_path: Path) -> None:
+def test_home_plan_and_goals_are_saved_with_patient(tmp_path: Path) -> None:
     with open_store(tmp_path) as house:
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         first = HomePlan(("WRIST_FE", "FIST_HOOK"), 10, 3, T0.date(), None, "", "", "it")
@@ -373,6 +373,9 @@ def test_home_plan_is_saved_with_patient(tmp_path: Path) -> None:
             patients.save_home_plan(house.store, linden, plan)
             assert patients.read_home_plan(house.store, linden) == plan
         assert patients.read_home_plan(house.store, heron) is None
+        house.store.apply([goal_change(linden, "WRIST_FE", "right", 40.0, 30.0)])
+        assert read_goals(house.store, linden) == {("WRIST_FE", "right"): (40.0, 30.0)}
+        assert read_goals(house.store, heron) == {}
 
 
 def test_store_damaged_opened_twice_loses_nothing(tmp_path: Path) -> None:
@@ -454,11 +457,3 @@ def test_new_path_is_free_and_in_patient_folder(tmp_path: Path) -> None:
             patient_id = house.patients.add(Patient(pseudonym, "left"))
             folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
         assert len(folders) == 4
-
-
-def test_read_goals_are_of_one_patient(tmp_path: Path) -> None:
-    with open_store(tmp_path) as house:
-        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-        house.store.apply([goal_change(linden, "WRIST_FE", "right", 40.0, 30.0)])
-        assert read_goals(house.store, linden) == {("WRIST_FE", "right"): (40.0, 30.0)}
-        assert read_goals(house.store, heron) == {}
