@@ -99,11 +99,11 @@ def wait_until(what: Callable[[], bool]) -> None:
 
 def record(
     path: Path, subject: str, when: datetime, hand: str = "right", frames: int = 4, recording_id: str = "",
-    simulated: bool = False,
+    simulated: bool = False, created: datetime | None = None,
 ) -> Path:  # fmt: skip
     """A session file. Of those alike that one test asks for each has an identity of its own; another test gets the same
     ones, which are written once."""
-    kind = (subject, when.isoformat(), hand, frames, recording_id, simulated)
+    kind = (subject, when.isoformat(), hand, frames, recording_id, simulated, created)
     asked = (os.environ.get("PYTEST_CURRENT_TEST", "").split(" ")[0], kind)
     number, written = _ASKED[asked], _RECORDED.setdefault(kind, [])
     _ASKED[asked] += 1
@@ -117,7 +117,7 @@ def record(
         protocol=WRIST6,
         subject_id=subject,
         exercise="WRIST_FE",
-        now=when,
+        now=created or when,
         recorded=when.isoformat(),
         recording_id=recording_id,
         parameters=json.dumps({"source": {SIMULATED: "yes"}}) if simulated else "{}",

@@ -38,7 +38,7 @@ from carpus.core.records.log import read_log
 from carpus.core.records.patients import WORDS, goal_change, patient_columns, read_goals, suggest_pseudonym
 from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import HomePlan, Patient, Therapist
+from carpus.core.records.values import HomePlan, Patient, Therapist, select_latest_versions
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from tests.records.samples import HERON, LINDEN, T0, House, measure, open_store, record, strip_stored_fields
@@ -251,6 +251,24 @@ def test_concurrent_change_second_is_refused(tmp_path: Path, url: str) -> None:
             with pytest.raises(ConcurrentChange):
                 session_records.save_choices(other.store, session_id, RepetitionChoices(yours), version)
             assert session_records.read_choices(other.store, session_id)[0].excluded == mine
+
+
+def test_recording_counts_once_by_newest_result(tmp_path: Path) -> None:
+    with open_store(tmp_path) as house:
+        linden = house.patients.add(LINDEN)
+        folder, week = house.store.sessions_folder / linden, timedelta(days=7)
+        for number, days in enumerate((1, 9, 2)):
+            made = record(folder / f"{number}.h5", "Linden 42", T0, recording_id="r", created=T0 + timedelta(days=days))
+            house.index.add(made, linden)
+        other = record(folder / "other.h5", "Linden 42", T0 + week, created=T0 - timedelta(days=400))
+        house.index.add(other, linden)
+        found = house.patients.get(linden)
+        assert (found.session_count, found.result_count) == (2, 4)
+        assert found.last_session == T0 + week, "the last movement, not the last tracking"
+        kept = select_latest_versions(house.index.patient_sessions(linden))
+        assert [(entry.path.name, entry.recorded) for entry in kept] == [("other.h5", T0 + week), ("1.h5", T0)]
+        house.files.scan()
+        assert house.patients.get(linden).session_count == 2
 
 
 UNSEEN = ("\u00ad", "\u200b", "\u202e", "\n", "\ud800", "\0", "\u3164", "\ufe0f")

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
+from datetime import UTC, datetime
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
+from carpus.core.model.dates import moment_from_timestamp, to_iso
 from carpus.core.model.depth_sensor import D455
 from carpus.core.model.errors import SessionUnreadable
 from carpus.core.model.hand.protocols import HAND21, WRIST6, MarkerProtocol
@@ -17,6 +19,7 @@ from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import Event, Motion, new_header, stack_states
 from tests.session.samples import (
     CAMERA,
+    CREATED,
     begin_session,
     compute_time,
     make_calibration,
@@ -88,6 +91,14 @@ def edit(change: Callable[[h5py.File], object]) -> Callable[[Path], None]:
     return apply
 
 
+def put(path: str, rows: object, value: object) -> Callable[[Path], None]:
+    return edit(lambda file: file[path].__setitem__(rows, value))
+
+
+def say(**attributes: object) -> Callable[[Path], None]:
+    return edit(lambda file: file.attrs.update(attributes))
+
+
 def replace(file: h5py.File, path: str, data: object) -> None:
     del file[path]
     file[path] = data
@@ -110,10 +121,27 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
         "format version 4, but this version of Carpus reads up to 3",
     ),
     "no hand": (edit(lambda file: file.attrs.__delitem__("hand")), "hand"),
-    "third hand": (edit(lambda file: file.attrs.__setitem__("hand", "middle")), "middle"),
-    "other protocol": (edit(lambda file: file.attrs.__setitem__("protocol", "foot")), "foot"),
-    "no zone": (edit(lambda file: file.attrs.__setitem__("created", "2026-11-13T15:30:00")), "damaged"),
-    "settings not JSON": (edit(lambda file: file.attrs.__setitem__("parameters", "{")), ""),
+    "third hand": (say(hand="middle"), "middle"),
+    "other protocol": (say(protocol="foot"), "foot"),
+    "no zone": (say(created="2026-11-13T15:30:00"), "damaged"),
+    "no date": (say(created="yesterday"), "damaged"),
+    "settings not JSON": (say(parameters="{"), ""),
+    "settings nested": (say(parameters="[" * 900 + "]" * 900), "damaged"),
+    "settings nested without end": (say(parameters="[" * 100_000), "damaged"),
+    "two lines": (say(subject_id="a\nb"), "damaged"),
+    "long name": (say(subject_id="x" * 10_000), "damaged"),
+    "no identity": (say(session_id=""), "damaged"),
+    "time back": (put("/frames/timestamp", 7, 0.0), "damaged"),
+    "time stands still": (put("/frames/timestamp", slice(None), 1.0), "damaged"),
+    "unknown time": (put("/frames/timestamp", 7, np.nan), "damaged"),
+    "end of time": (put("/frames/timestamp", N - 1, 1e300), "damaged"),
+    "unknown status": (put("/frames/status", 3, 200), "damaged"),
+    "large angle": (put("/wrist/angles", 3, 1e12), "damaged"),
+    "endless angle": (put("/wrist/angles", 3, np.inf), "damaged"),
+    "negative sd": (put("/wrist/angles_sd", 3, -0.1), "damaged"),
+    "far marker": (put("/markers/position_camera", 3, 1e9), "damaged"),
+    "far hand": (put("/calibration/translation", 0, np.inf), "damaged"),
+    "event at no time": (put("/events/time", 0, np.nan), "damaged"),
     "no angles": (edit(lambda file: file.__delitem__("/wrist/angles")), "/wrist/angles"),
     "no camera": (edit(lambda file: file.__delitem__("/camera")), ""),
     "no times": (edit(lambda file: file.__delitem__("/frames/timestamp")), ""),
@@ -162,3 +190,10 @@ def test_session_header_foreign_parameters_are_ignored(
     found = read_session(tmp_path / "s.h5").header
     assert found.is_simulated == simulated
     np.testing.assert_array_equal(found.targets_deg, targets_deg)
+
+
+def test_recording_date_ignores_camera_clock() -> None:
+    assert moment_from_timestamp(12.25) is None
+    assert moment_from_timestamp(float("nan")) is None
+    assert moment_from_timestamp(datetime.now(UTC).timestamp() + 7 * 86400.0) is None
+    assert moment_from_timestamp(CREATED.timestamp()) == datetime.fromisoformat(to_iso(CREATED)) == CREATED
