@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import struct
 import subprocess
 import sys
 from dataclasses import fields
@@ -180,6 +181,23 @@ def test_recovery_old_part_file_is_finished(tmp_path: Path) -> None:
     assert [event.text for event in session.events] == ["Grüße"]
     assert len(read_detections(session.path).blobs) == sum(len(make_frame(row).detections) for row in range(12))
     assert verify(session.path).has_checksum
+
+
+def test_recovery_part_file_is_cut_to_whole_rows(tmp_path: Path) -> None:
+    """One whose last blob is missing, whose smoother's result is whole, and whose end HDF5 had not written yet."""
+    part = old_part(tmp_path)
+    with h5py.File(part, "r+") as file:
+        last = int(file["/detections/frame"][-1])
+        for name in set(file["/detections"]) - {"count"}:
+            file["/detections"][name].resize(len(file["/detections"][name]) - 1, axis=0)
+        file["/smoothed"].visititems(lambda _, one: one.resize(last, axis=0) if isinstance(one, h5py.Dataset) else None)
+    with part.open("r+b") as raw:
+        raw.seek(40)
+        raw.write(struct.pack("<Q", part.stat().st_size // 2))
+    os.utime(part, (0, 0))
+    (path,) = recover_recordings(tmp_path).recovered
+    session = read_session(path)
+    assert (len(session), len(session.smoothed.angles_rad)) == (last, last)
 
 
 def test_recovery_open_part_file_is_left_alone(tmp_path: Path) -> None:
