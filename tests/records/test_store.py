@@ -47,17 +47,24 @@ BESIDE = (".jpg", ".carpusraw")
 """What :func:`measure` puts beside a session, as the tests write it."""
 
 
-def test_patient_saved_is_read_back(tmp_path: Path) -> None:
-    with open_store(tmp_path) as house:
+def test_patient_saved_is_private_and_read_back_where_the_folder_is(tmp_path: Path) -> None:
+    old, new = tmp_path / "old", tmp_path / "new"
+    old.mkdir(mode=0o755)
+    with open_store(old) as house:
         patient_id = house.patients.add(LINDEN)
         session_id = measure(house, patient_id, T0)
-    with open_store(tmp_path) as house:
+        found = {p: stat.S_IMODE(p.stat().st_mode) for p in (old, *old.rglob("*")) if p.suffix not in BESIDE}
+        assert any(p.name.endswith("-wal") for p in found)
+        assert {p: mode for p, mode in found.items() if mode != (0o700 if p.is_dir() else 0o600)} == {}
+    assert {p.name for p in old.rglob("*") if p.is_file() and b"Mustermann" in p.read_bytes()} == {STORE_FILE}
+    old.rename(new)
+    with open_store(new) as house:
         (found,) = house.patients.search()
         assert (found.patient_id, strip_stored_fields(found)) == (patient_id, LINDEN)
         assert (found.session_count, found.last_session, found.last_exercise) == (1, T0, "WRIST_FE")
         (session,) = house.index.patient_sessions(patient_id)
         assert (session.session_id, session.created, session.hand, session.frames) == (session_id, T0, "right", 4)
-        assert session.path.parent.name == patient_id
+        assert session.path.parent == new / "sessions" / patient_id
         assert session.duration_s == pytest.approx(0.1)
         assert session.initials == "AB"
         assert house.index.get(session_id) == session
@@ -108,21 +115,6 @@ def test_pseudonym_of_another_patient_is_refused(tmp_path: Path) -> None:
             house.patients.get("nobody")
         with pytest.raises(SessionUnreadable):
             house.index.get("nothing")
-
-
-def test_scan_rebuilds_lost_list(tmp_path: Path) -> None:
-    with open_store(tmp_path) as house:
-        linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
-        before = {measure(house, linden, T0 + timedelta(days=day)) for day in range(3)} | {measure(house, heron, T0)}
-    for path in tmp_path.glob(f"{STORE_FILE}*"):
-        path.unlink()
-    with open_store(tmp_path) as house:
-        house.files.scan()
-        assert house.names() == ["Linden 42", "Heron 17"]
-        people = house.patients.search()
-        assert {e.session_id for one in people for e in house.index.patient_sessions(one.patient_id)} == before
-        entry = people[0]
-        assert (entry.side, entry.name, entry.note) == ("right", "", "")  # names were only in the store
 
 
 def test_scan_finds_new_files_and_keeps_missing_ones(tmp_path: Path) -> None:
@@ -180,26 +172,6 @@ def test_scan_lists_exchanged_files_by_content(tmp_path: Path, how: str) -> None
             assert house.index.get(ids[1]).path.exists()
             assert session_records.read_comments(house.store, ids[0]) == ["mine"]
         assert house.names("Wren") == (["Wren 12"] if how == "another's" else [])
-
-
-def test_data_folder_is_private_and_movable(tmp_path: Path) -> None:
-    old, new = tmp_path / "old", tmp_path / "new"
-    old.mkdir(mode=0o755)
-    with open_store(old) as house:
-        patient_id = house.patients.add(LINDEN)
-        measure(house, patient_id, T0)
-        house.index.new_path(patient_id, "Linden 42", "WRIST_FE", "right", T0)
-        found = {p: stat.S_IMODE(p.stat().st_mode) for p in (old, *old.rglob("*")) if p.suffix not in BESIDE}
-        assert any(p.name.endswith("-wal") for p in found)
-        for p, mode in found.items():
-            assert mode == (0o700 if p.is_dir() else 0o600), p
-    holding = {p.name for p in old.rglob("*") if p.is_file() and b"Mustermann" in p.read_bytes()}
-    assert holding == {STORE_FILE}
-    old.rename(new)
-    with open_store(new) as house:
-        (session,) = house.index.patient_sessions(patient_id)
-        assert session.path.is_file()
-        assert session.path.is_relative_to(new)
 
 
 def test_store_used_by_threads_and_programs_at_once(tmp_path: Path) -> None:
