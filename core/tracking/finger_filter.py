@@ -12,7 +12,6 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import FloatArray, SurfaceSamples
 from carpus.core.tracking.association.association import is_jointly_compatible
-from carpus.core.tracking.association.palm_association import Measurements
 from carpus.core.tracking.digits.digit_association import (
     EXTRA_LINEARISATIONS,
     MAX_SEEN,
@@ -53,7 +52,7 @@ from carpus.core.tracking.filter.hand_geometry import (
     PalmGeometry,
 )
 from carpus.core.tracking.filter.mixture_filter import ModeMixture
-from carpus.core.tracking.filter.predicted_measurement import PredictedDigits, adapt_noise_factor
+from carpus.core.tracking.filter.predicted_measurement import Measurements, PredictedDigits, adapt_noise_factor
 from carpus.core.tracking.filter.settings import AssociationSettings, TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
 from carpus.core.tracking.smoother.finger_smoother import FingerStep

@@ -15,14 +15,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.model import so3
 from carpus.core.model.camera import Camera
 from carpus.core.model.types import Detections, FloatArray
-from carpus.core.tracking.association.association import is_jointly_compatible
-from carpus.core.tracking.association.palm_association import (
-    Measurements,
-    UpdatedPalm,
-    associate_and_update,
-    measurements_from_blobs,
-    update_palm,
-)
+from carpus.core.tracking.association.association import associate_and_update, is_jointly_compatible
 from carpus.core.tracking.association.reacquire import (
     RATE_SD_RAD_S,
     VELOCITY_SD_M_S,
@@ -57,11 +50,15 @@ from carpus.core.tracking.filter.palm_state import (
 )
 from carpus.core.tracking.filter.predicted_measurement import (
     MarkerOrder,
+    Measurements,
     PredictedMeasurement,
+    UpdatedPalm,
     adapt_noise_factor,
     depth_bias_matrix,
+    measurements_from_blobs,
     predict_measurement_ahead,
     shape_covariance,
+    update_palm,
 )
 from carpus.core.tracking.filter.readout import Readout
 from carpus.core.tracking.filter.settings import TrackerSettings

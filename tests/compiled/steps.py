@@ -26,7 +26,6 @@ from carpus.core.tracking.association.association import (
     LOG_IMPOSSIBLE,
     log_densities,
 )
-from carpus.core.tracking.association.palm_association import Measurements
 from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
 from carpus.core.tracking.filter.digit_filter import (
     OBSERVED,
@@ -48,6 +47,7 @@ from carpus.core.tracking.filter.mixture_filter import (
 )
 from carpus.core.tracking.filter.motion import MotionNoise, PalmMotion
 from carpus.core.tracking.filter.palm_state import RELIEF, SIZE, SURFACE, PalmView
+from carpus.core.tracking.filter.predicted_measurement import Measurements
 from carpus.core.tracking.filter.readout import Readout
 from carpus.core.tracking.filter.settings import AssociationSettings, TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import (

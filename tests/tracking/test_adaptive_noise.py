@@ -10,8 +10,7 @@ import pytest
 
 from carpus.core.model.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.model.types import Detections, FloatArray
-from carpus.core.tracking.association.palm_association import measurements_from_blobs
-from carpus.core.tracking.filter.predicted_measurement import adapt_noise_factor
+from carpus.core.tracking.filter.predicted_measurement import adapt_noise_factor, measurements_from_blobs
 from carpus.core.tracking.filter.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.finger_filter import update_disc_areas
 

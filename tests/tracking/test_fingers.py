@@ -12,11 +12,11 @@ from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.model.hand.protocols import HAND21
 from carpus.core.model.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.association.palm_association import measurements_from_blobs
 from carpus.core.tracking.digits.finger_model import FingerModel
 from carpus.core.tracking.filter.digit_filter import ANATOMY, DIGIT_SIZE
 from carpus.core.tracking.filter.hand_geometry import palm_calibration
 from carpus.core.tracking.filter.palm_state import InitialSd, initial_estimate
+from carpus.core.tracking.filter.predicted_measurement import measurements_from_blobs
 from carpus.core.tracking.filter.readout import Readout
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.finger_filter import DigitFrame, DigitPosterior, FingerFilter

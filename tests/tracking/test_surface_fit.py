@@ -11,7 +11,6 @@ import pytest
 from carpus.core.model import so3
 from carpus.core.model.hand.dorsal_surface import DorsalSurface, fit_dorsal_surface
 from carpus.core.model.types import FloatArray, SurfaceSamples
-from carpus.core.tracking.association.palm_association import Measurements, update_palm
 from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,
@@ -29,7 +28,12 @@ from carpus.core.tracking.filter.palm_state import (
     PalmView,
     reset_error,
 )
-from carpus.core.tracking.filter.predicted_measurement import predict_measurement, shape_partial_update
+from carpus.core.tracking.filter.predicted_measurement import (
+    Measurements,
+    predict_measurement,
+    shape_partial_update,
+    update_palm,
+)
 from carpus.core.tracking.filter.surface_fit import (
     NO_NOISE,
     SurfaceMeasurement,

@@ -14,7 +14,7 @@ joint posterior of all associations is searched: a beam over the markers, each d
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -22,10 +22,17 @@ from numpy.typing import NDArray
 
 from carpus.core.compiled.association import compute_log_odds
 from carpus.core.model.types import FloatArray
-from carpus.core.tracking.filter.settings import AssociationSettings
+from carpus.core.tracking.filter.predicted_measurement import (
+    Measurements,
+    PredictedMeasurement,
+    UpdatedPalm,
+    update_palm,
+)
+from carpus.core.tracking.filter.settings import AssociationSettings, MeasurementNoise, TrackerSettings
 
 LOG_IMPOSSIBLE = -1e9  # log odds of an association outside the gate
 
+MAX_OUTLIERS = 3  # measurements in a frame that are given the noise they show
 DEPTH_OUTLIER_PROBABILITY = 1e-4  # that a blob's depth is of something else
 
 
@@ -253,3 +260,100 @@ def _extend_branches(
         mean,
         covariance,
     )
+
+
+def associate_and_update(
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    min_assigned: int,
+    resolution_px2: float,
+    noise_factor: FloatArray,
+    settings: TrackerSettings,
+) -> UpdatedPalm:
+    """Associate by (12), each marker by itself; where not jointly compatible, all jointly.
+
+    Compatible: the joint NIS is within its bound, and ``min_assigned`` markers have a blob unless no blob is left.
+    """
+    mean, covariance = predicted.mean, predicted.covariance
+    markers = len(mean)
+    if not len(blobs):
+        nothing = np.full(markers, -1, dtype=np.int64)
+        return update_palm(predicted, blobs, nothing, nothing > 0, noise_factor)
+    odds, uses_depth = log_odds(mean, covariance, blobs.value, blobs.variance, resolution_px2, settings.association)
+    assigned = assign_blobs(odds)
+    with_depth = uses_depth[np.arange(markers), assigned]
+    assigned = _reject_wrong_depths(assigned, with_depth, blobs, mean[:, 2], settings.association)
+    simple = update_palm(predicted, blobs, assigned, with_depth, noise_factor)
+    count = np.count_nonzero(assigned >= 0)
+    if (count >= min_assigned or count == len(blobs)) and is_jointly_compatible(
+        simple.nis, simple.dof, settings.association
+    ):
+        return _inflate_outlier_noise(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
+    joint = _associate_by_mode(predicted, blobs, resolution_px2, settings)
+    assigned = _reject_wrong_depths(joint.assigned, joint.with_depth, blobs, mean[:, 2], settings.association)
+    updated = update_palm(predicted, blobs, assigned, joint.with_depth, noise_factor)
+    return _inflate_outlier_noise(updated, predicted, blobs, joint.with_depth, noise_factor, settings.noise)
+
+
+def _reject_wrong_depths(
+    assigned: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    blobs: Measurements,
+    depth_m: FloatArray,
+    settings: AssociationSettings,
+) -> NDArray[np.int64]:
+    """Drop blobs at another depth than ``depth_m`` (M,), unless enough markers bear them out.
+
+    What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc, and far
+    before or behind it none is: the depths of a disc's rim and of what is beside it mix only where these lie near.
+    """
+    is_off_depth = (assigned >= 0) & ~with_depth
+    if not is_off_depth.any():
+        return assigned
+    off_m = np.abs(blobs.value[assigned, 2] - depth_m)
+    is_off_depth &= np.isfinite(off_m)
+    if np.count_nonzero((assigned >= 0) & ~is_off_depth) >= settings.min_markers_at_depth:
+        is_off_depth &= off_m > settings.max_depth_error_m
+    return np.where(is_off_depth, -1, assigned)
+
+
+def _associate_by_mode(
+    predicted: PredictedMeasurement, blobs: Measurements, resolution_px2: float, settings: TrackerSettings
+) -> JointAssociation:
+    """Find the most probable joint association over all motion modes.
+
+    While the hand rests the mixture of the modes is as narrow as the calm one; a start is seen by the lively one.
+    """
+    every = [
+        associate_jointly(mean, covariance, blobs.value, blobs.variance, resolution_px2, settings.association)
+        for mean, covariance in zip(*predicted.mode_predictions(), strict=True)
+    ]
+    score = [one.log_posterior for one in every] + np.log(predicted.mixture.probability[0])
+    return every[int(np.argmax(score))]
+
+
+def _inflate_outlier_noise(
+    updated: UpdatedPalm,
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+    noise: MeasurementNoise,
+) -> UpdatedPalm:
+    """Update again, the worst measurements given the noise that their residuals show, one by one.
+
+    A disc half behind the rim is still that disc, but its centre is not where it seems.
+    """
+    factor = noise_factor
+    for _ in range(MAX_OUTLIERS):
+        marker, axis = divmod(int(np.abs(updated.residual).argmax()), 3)
+        size = abs(float(updated.residual[marker, axis]))
+        if size <= noise.outlier_sd:
+            break
+        factor = factor.copy()
+        factor[marker, 2:] *= size**2 if axis == 2 else 1.0
+        factor[marker, :2] *= 1.0 if axis == 2 else size**2
+        updated = replace(
+            update_palm(predicted, blobs, updated.assigned, with_depth, factor), raw_residual=updated.raw_residual
+        )
+    return updated

@@ -1,9 +1,9 @@
-"""Predicted measurement of the hand: the state predicted for a moment, and h linearised there."""
+"""Measurement of the hand: as predicted for a moment, h linearised there; as blobs give it; and the palm's update."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,7 +15,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.compiled.palm import predict_palm_measurement
 from carpus.core.model.camera import Camera
 from carpus.core.model.depth_sensor import DepthSensor
-from carpus.core.model.types import BoolArray, FloatArray
+from carpus.core.model.types import BoolArray, Detections, FloatArray
 from carpus.core.tracking.filter.digit_filter import DigitSigmaPoints, DigitView, digit_sigma_weights
 from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_DISCS, PalmGeometry
 from carpus.core.tracking.filter.mixture_filter import (
@@ -24,6 +24,7 @@ from carpus.core.tracking.filter.mixture_filter import (
     UnscentedParameters,
     compute_weights,
     partial_update_shares,
+    update_mixture,
 )
 from carpus.core.tracking.filter.motion import PalmMotion, predict_palm
 from carpus.core.tracking.filter.palm_state import (
@@ -37,6 +38,7 @@ from carpus.core.tracking.filter.palm_state import (
 )
 from carpus.core.tracking.filter.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.filter.soft_tissue import DigitSpeeds
+from carpus.core.tracking.filter.surface_fit import SurfaceMeasurement
 
 _MIN_SD_M = 1e-5  # keeps the covariance of a perfectly measured disc positive definite
 
@@ -273,6 +275,105 @@ def predict_measurement_ahead(
         fresh = compute_fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
     partial = shape_partial_update(SHAPE_LEARNING_SHARE * max(fresh, SHAPE_STILL_SHARE))
     return predict_measurement(estimate, mixture, view, settings.scaling, partial, digits, order)
+
+
+# The centre of a partly covered disc may shift by this share of its radius times what is missing of its area below
+# MIN_WHOLE_AREA_SHARE.
+CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE = 0.7, 0.6
+
+
+@dataclass(frozen=True, slots=True)
+class Measurements:
+    """Blobs as measurements (D, 3) of pixel u, v and depth (NaN when unknown), with variances (D, 3).
+
+    ``surface`` is what the back of the hand tells beside them, None where it tells nothing.
+    """
+
+    value: FloatArray
+    variance: FloatArray
+    surface: SurfaceMeasurement | None = None
+
+    def __len__(self) -> int:
+        return int(self.value.shape[0])
+
+
+@dataclass(frozen=True, slots=True)
+class UpdatedPalm:
+    """All modes updated by the associated blobs.
+
+    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``is_measured`` (M, 3)
+    components, and their ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
+    given more noise; both 0 where nothing was measured. ``by_surface`` whether the surface took part.
+    """
+
+    mixture: ModeMixture
+    assigned: NDArray[np.int64]
+    nis: float
+    dof: int
+    is_measured: NDArray[np.bool_]
+    residual: FloatArray
+    raw_residual: FloatArray
+    by_surface: bool = False
+
+
+def measurements_from_blobs(
+    blobs: Detections, radius_px: float, settings: TrackerSettings, sensor: DepthSensor
+) -> Measurements:
+    """Return the blobs with the noise of their pixels and depths.
+
+    ``radius_px`` of a disc at the hand's distance: a blob much smaller than it is half hidden, and its centre not the
+    disc's.
+    """
+    noise = settings.noise
+    depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
+    shown = blobs.area_px / (np.pi * radius_px**2)
+    occlusion_sd_px = CENTRE_SHIFT_SHARE * radius_px * np.maximum(MIN_WHOLE_AREA_SHARE - shown, 0.0)
+    value = np.empty((len(blobs), 3))
+    value[:, :2], value[:, 2] = blobs.pixel, depth
+    known = np.isfinite(depth)
+    at_m, sd_m = depth, blobs.depth_sd_m
+    if not known.all():
+        at_m, sd_m = np.where(known, depth, 1.0), np.where(known, sd_m, 1.0)
+    model_variance = sensor.disc_sd_m(at_m, blobs.area_px) ** 2
+    excess_variance = np.maximum(sd_m**2 - model_variance, 0.0)
+    variance = np.empty((len(blobs), 3))
+    variance[:, :2] = (noise.pixel_sd_px**2 + occlusion_sd_px**2)[:, None]
+    variance[:, 2] = noise.depth_noise_ratio**2 * model_variance + excess_variance + sensor.bias_sd_m(at_m) ** 2
+    return Measurements(value, variance)
+
+
+def update_palm(
+    predicted: PredictedMeasurement,
+    blobs: Measurements,
+    assigned: NDArray[np.int64],
+    with_depth: NDArray[np.bool_],
+    noise_factor: FloatArray,
+) -> UpdatedPalm:
+    """Update every mode by the associated blobs and the surface; ``noise_factor`` (M, 3) multiplies the variances.
+
+    A surface that is not this one, given the blobs, is left out.
+    """
+    used = np.empty((assigned.size, 3), dtype=bool)
+    used[:] = (assigned >= 0)[:, None]
+    used[:, 2] &= with_depth
+    surface = blobs.surface
+    if used.any():
+        value = np.where(used, blobs.value.take(assigned, 0), np.nan).reshape(1, -1)
+        variance = (blobs.variance.take(assigned, 0) * noise_factor).reshape(1, -1)
+    elif surface is None:
+        nothing = np.zeros(used.shape)
+        return UpdatedPalm(predicted.mixture, assigned, float("nan"), 0, used, nothing, nothing)
+    else:
+        value = variance = np.full((1, used.size), np.nan)
+    measurement = predicted.linearised, value, variance
+    if surface is not None:
+        measurement = surface.extend_measurement(*measurement)
+    update = update_mixture(predicted.mixture, *measurement, partial=predicted.partial, tested=used.size)
+    if surface is not None and update.rest_nis[0] > surface.max_nis:
+        return update_palm(predicted, replace(blobs, surface=None), assigned, with_depth, noise_factor)
+    residual, dof = update.residual.reshape(used.shape), int(update.dof[0])
+    nis = float(update.nis[0]) if dof else float("nan")
+    return UpdatedPalm(update.mixture, assigned, nis, dof, used, residual, residual, surface is not None)
 
 
 def adapt_noise_factor(
