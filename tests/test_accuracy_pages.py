@@ -9,8 +9,7 @@ import pytest
 
 from tests.accuracy import __main__ as accuracy
 from tests.accuracy import pages
-from tests.accuracy.readings import Reading
-from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow, patient_rows
+from tests.accuracy.readings import WRIST_COLUMNS, Reading, ReadRow, patient_rows
 
 
 def _reading(error_deg: float) -> Reading:

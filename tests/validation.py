@@ -50,7 +50,7 @@ from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, sample_clicks, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import write_truth
-from tests.accuracy import readings_table, second
+from tests.accuracy import readings, second
 from tests.accuracy.carpus import measure_still_hand
 from tests.accuracy.hand21 import JOINT_GROUPS
 from tests.accuracy.pages import rule_table
@@ -345,7 +345,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     judged = ""
     if options.second:
         _, read = second.report(second.rows_named(""), options.second, options.processes, options.first_seed + 900_000)
-        judged = readings_table.markdown(read)
+        judged = readings.markdown(read)
     options.output.parent.mkdir(parents=True, exist_ok=True)
     options.output.write_text(write_document(options, found, judged), encoding="utf-8")
     print(f"{options.output}, {(time.monotonic() - begin) / 60:.0f} minutes")

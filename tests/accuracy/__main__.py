@@ -13,15 +13,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from carpus.core.platform.provenance import source_revision
-from tests.accuracy import badly, hand21_table, readings_table, second
+from tests.accuracy import badly, hand21, readings, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, make_jobs
 from tests.accuracy.pages import mark_table, rule_table
-from tests.accuracy.readings_table import ReadRow
+from tests.accuracy.readings import ReadRow
 from tests.accuracy.scenarios import GROUPS, Scenario
-from tests.accuracy.scores import Run
+from tests.accuracy.scores import Run, collect_rows, markdown, read_rows
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
-from tests.accuracy.table import collect_rows, markdown, read_rows
 
 _Row = TypeVar("_Row", Scenario, HandScenario)
 
@@ -62,8 +61,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         read += some
         print(told, flush=True)
     if hand:
-        hands = hand21_table.all_hand_runs(hand21_table.hand_jobs(hand, seeds, pictures), options.processes)
-        read += hand21_table.read_rows(hands, hand)
+        hands = hand21.all_hand_runs(hand21.hand_jobs(hand, seeds, pictures), options.processes)
+        read += hand21.read_rows(hands, hand)
         print("", *_hand_tables(hands, hand), sep="\n", flush=True)
     if options.group in ("all", "badly") and pictures and not options.only:
         print("", mark_table("badly", badly.report(pictures)), sep="\n", flush=True)
@@ -100,7 +99,7 @@ def _wrist_tables(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterato
         some = [row for row in scenarios if row in every]
         if rows := list(collect_rows(runs, some)):
             yield from (mark_table(group, markdown(rows)), "")
-            yield from (mark_table(f"{group} read", readings_table.markdown(read_rows(rows))), "")
+            yield from (mark_table(f"{group} read", readings.markdown(read_rows(rows))), "")
 
 
 def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> Iterator[str]:
@@ -109,8 +108,8 @@ def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> 
         name = "hand" if group == "hand" else f"{group} hand"
         some = [row for row in scenarios if row in every]
         if some:
-            yield from (mark_table(name, hand21_table.markdown(runs, some)), "")
-            yield from (mark_table(f"{name} read", readings_table.markdown(hand21_table.read_rows(runs, some))), "")
+            yield from (mark_table(name, hand21.markdown(runs, some)), "")
+            yield from (mark_table(f"{name} read", readings.markdown(hand21.read_rows(runs, some))), "")
 
 
 def _made(seeds: int, pictures: int) -> str:
@@ -139,7 +138,7 @@ def _patient_tables(read: Sequence[ReadRow]) -> Iterator[tuple[str, list[tuple[s
 
     yield (
         "first patient",
-        readings_table.patient_rows(
+        readings.patient_rows(
             [
                 ("rigid, 6 markers: exercises, reaching, fast", first(WRIST_ROWS["wrist"])),
                 ("rigid, 6 markers: in trouble", first(WRIST_ROWS["trouble"])),
@@ -149,7 +148,7 @@ def _patient_tables(read: Sequence[ReadRow]) -> Iterator[tuple[str, list[tuple[s
             ]
         ),
     )
-    rows = readings_table.patient_rows(
+    rows = readings.patient_rows(
         [
             ("rigid, 6 markers", judged("wrist6", rigid=True)),
             ("soft, 6 markers", judged("wrist6", rigid=False)),

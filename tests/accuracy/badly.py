@@ -18,11 +18,11 @@ from carpus.core.model.types import FloatArray, TrackStatus
 from carpus.core.pipeline.track import TrackSettings, noise_from_json, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, render_cached
+from tests.accuracy.carpus import select_scored_frames
 from tests.accuracy.jobs import PICTURE_SECONDS
 from tests.accuracy.pages import rule_table
 from tests.accuracy.scenarios import WRIST
 from tests.accuracy.scores import degrees_between
-from tests.accuracy.sequences import select_scored_frames
 from tests.rendered import read_truth
 
 ROWS = (

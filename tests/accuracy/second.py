@@ -14,15 +14,13 @@ from threadpoolctl import threadpool_limits
 
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.types import FloatArray
-from tests.accuracy import readings_table
-from tests.accuracy.carpus import measure_session
+from tests.accuracy import readings
+from tests.accuracy.carpus import enough_inside, label_blobs, measure_session, names_taken
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, find_seen_joints, readable, with_end_joints
 from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import mark_table
-from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, compute_reading_of_frames
-from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
+from tests.accuracy.readings import AT_NEUTRAL_RAD, WRIST_COLUMNS, Reading, ReadRow, compute_reading_of_frames
 from tests.accuracy.scores import degrees_between
-from tests.accuracy.sequences import enough_inside, label_blobs, names_taken
 from tests.second_patient.motions import ROWS, Row, make_motion
 from tests.second_patient.recording import cache_recording, clear_px, make_take
 
@@ -99,7 +97,7 @@ def report(
     done = side_by_side(_track_job, jobs, processes)
     runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
     read = list(_read_rows(runs, rows))
-    return "\n".join([mark_table("second", readings_table.markdown(read)), *faults]), read
+    return "\n".join([mark_table("second", readings.markdown(read)), *faults]), read
 
 
 def _clickable_seed(row: Row, seed: int) -> int:

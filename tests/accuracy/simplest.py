@@ -20,9 +20,9 @@ from carpus.core.model.hand.clinical_angles import angles_from_rotation, wrist_a
 from carpus.core.model.so3 import project_to_rotation
 from carpus.core.model.types import FloatArray, Frame, TrackStatus
 from carpus.core.simulation.recording import sample_clicks
+from tests.accuracy.carpus import OWN_PX, longest_untracked_s, select_scored_frames
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.scores import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
-from tests.accuracy.sequences import OWN_PX, longest_untracked_s, select_scored_frames
 from tests.simulation.measurements import MeasurementSequence
 
 REACH_PX = 25.0

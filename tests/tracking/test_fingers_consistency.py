@@ -8,8 +8,16 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from tests.accuracy.hand21 import JOINT_GROUPS, ROWS, HandRun, HandScenario, run_on_blobs
-from tests.accuracy.hand21_table import MOST_RMSE_ALWAYS, MOST_RMSE_DEG, figures
+from tests.accuracy.hand21 import (
+    JOINT_GROUPS,
+    MOST_RMSE_ALWAYS,
+    MOST_RMSE_DEG,
+    ROWS,
+    HandRun,
+    HandScenario,
+    figures,
+    run_on_blobs,
+)
 
 FIRST_SEED, HANDS, SECONDS = 6_000_000, 5, 4.0
 FLEXION = ("MCP flexion", "PIP flexion", "DIP flexion")

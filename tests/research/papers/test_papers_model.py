@@ -1,16 +1,25 @@
-"""The papers' motion (1), their Euler angles and their hand."""
+"""The papers' motion (1), their Euler angles, their hand and their association."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from scipy.stats import multivariate_normal
 
 from carpus.core.calibration.neutral_pose import with_w0_from_markers
 from carpus.core.model.hand.kinematics import joint_centres
 from carpus.core.model.hand.protocols import HAND21, SITES
 from carpus.core.research.papers.hand_model import PaperSettings, calibrate_as_written, measure_hand, model_palm
-from carpus.core.research.papers.tracker import PaperMotion, euler_from_rotation, rotation_from_euler
+from carpus.core.research.papers.tracker import (
+    PaperMotion,
+    assign_blobs,
+    euler_from_rotation,
+    log_posteriors,
+    rotation_from_euler,
+)
 from tests.research.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
 from tests.tracking.hands import CAMERA, FROM_ABOVE, RIGHT_PALM_M
 
@@ -101,3 +110,27 @@ def test_neutral_pose_is_least_squares_one_of_palm_as_modelled() -> None:
         again.marker_position_w0_m[[0, 3]], [[0.0, 0.0, 0.0], [np.linalg.norm(RIGHT_PALM_M[3]), 0.0, 0.0]]
     )
     assert np.allclose(again.marker_position_w0_m @ again.rotation_w0_cam.T + again.translation_w0_cam_m, point)
+
+
+RESOLUTION = 640.0 * 480.0
+
+
+@given(st.integers(0, 10_000), st.integers(0, 12), st.integers(1, 8), st.floats(0.01, 0.9))
+def test_association_takes_largest_posterior_per_blob(seed: int, blobs: int, markers: int, clutter: float) -> None:
+    rng = np.random.default_rng(seed)
+    predicted = rng.uniform(200, 260, (markers, 2))
+    root = rng.normal(size=(markers, 2, 2)) * 4.0
+    covariance = root @ np.swapaxes(root, 1, 2) + np.eye(2)
+    pixel = rng.uniform(190, 270, (blobs, 2))
+
+    wanted: dict[int, tuple[float, int]] = {}
+    for blob in range(blobs):
+        density = [multivariate_normal.pdf(pixel[blob] - predicted[j], cov=covariance[j]) for j in range(markers)]
+        weight = [clutter / RESOLUTION] + [each * (1.0 - clutter) / markers for each in density]
+        choice = int(np.argmax(weight))
+        if choice and weight[choice] > wanted.get(choice - 1, (0.0, -1))[0]:
+            wanted[choice - 1] = (weight[choice], blob)
+
+    found = log_posteriors(pixel, predicted, covariance, clutter, RESOLUTION)
+    assert found.shape == (blobs, 1 + markers)
+    assert assign_blobs(found).tolist() == [wanted.get(j, (0.0, -1))[1] for j in range(markers)]
