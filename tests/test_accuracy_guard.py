@@ -13,7 +13,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from tests.accuracy.carpus import run_on_pictures
-from tests.accuracy.jobs import Job, run_job
+from tests.accuracy.jobs import run_job
 from tests.accuracy.scenarios import FAST, SLOW, WRIST
 from tests.accuracy.scores import CARPUS, SIMPLEST, Run, score
 from tests.rendered import REPEATED_FLEXION, Rendered
@@ -62,7 +62,7 @@ def runs() -> dict[str, list[Run]]:
     for scenario in WRIST:
         if scenario.pool is not None:
             for seed in scenario.seeds(SEEDS)[:SEEDS]:
-                out[scenario.pool] += run_job(Job(scenario, seed, "blobs"))
+                out[scenario.pool] += run_job((scenario, seed, "blobs"))
     return out
 
 
@@ -70,7 +70,7 @@ def runs() -> dict[str, list[Run]]:
 def test_accuracy_of_single_recording_has_not_fallen(name: str, pool: str) -> None:
     """The short form of what follows."""
     scenario = next(one for one in WRIST if one.name == name)
-    one, simplest = run_job(Job(scenario, scenario.seeds(1)[0], "blobs"))
+    one, simplest = run_job((scenario, scenario.seeds(1)[0], "blobs"))
     carpus, back, plain = score([one], COLUMNS), score([one], COLUMNS, smoothed=True), score([simplest], COLUMNS)
     measured = MEASURED[pool]
     assert (carpus.rmse <= MARGIN_OF_ONE * np.array(measured.live_deg)).all(), carpus.rmse

@@ -9,7 +9,7 @@ from carpus.core.model.types import FloatArray
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth, compute_truth
-from tests.accuracy.readings import Reading, compute_reading, find_truth_strokes, read_figures
+from tests.accuracy.readings import Reading, compute_reading, find_moves_rad, find_strokes, read_figures
 
 
 @pytest.fixture(scope="module")
@@ -20,14 +20,16 @@ def truth() -> Truth:
 def read(truth: Truth, error_deg: FloatArray, sd_deg: float = 1.0) -> Reading:
     every = np.ones(len(truth.time_s), dtype=bool)
     sd = np.full(error_deg.shape, sd_deg)
-    return compute_reading(truth, every, truth.angles_rad, error_deg, sd, unused=3, shown=60)
+    return compute_reading(
+        truth.time_s, find_moves_rad(truth, truth.time_s), truth.angles_rad, every, error_deg, sd, unused=3, shown=60
+    )
 
 
 def test_range_read_tenth_too_large_is_reported_by_repetition_and_at_ends(truth: Truth) -> None:
     error = 0.1 * np.degrees(truth.angles_rad)
     error[:, [0, 2]] = 0.0
     reading = read(truth, error)
-    windows, ends = find_truth_strokes(truth, truth.time_s)
+    windows, ends = find_strokes(truth.time_s, find_moves_rad(truth, truth.time_s))
     assert len(windows) >= 3
     assert len(ends) == 2 * len(windows)
     found = read_figures([reading], (1,))

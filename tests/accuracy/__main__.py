@@ -61,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         read += some
         print(told, flush=True)
     if hand:
-        hands = hand21.all_hand_runs(hand21.hand_jobs(hand, seeds, pictures), options.processes)
+        hands = hand21.run_hands(hand, seeds, pictures, options.processes)
         read += hand21.read_rows(hands, hand)
         print("", *_hand_tables(hands, hand), sep="\n", flush=True)
     if options.group in ("all", "badly") and pictures and not options.only:

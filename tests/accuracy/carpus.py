@@ -32,7 +32,7 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from tests.accuracy.readings import compute_reading
+from tests.accuracy.readings import compute_reading, find_moves_rad
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.scores import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.rendered import read_truth
@@ -140,6 +140,7 @@ def _score_run(
 ) -> Run:
     truth = sequence.truth
     scored = select_scored_frames(truth, begin_s)
+    time_s = truth.time_s[scored]
     names = names_taken(measured_px, sequence.detections, sequence.marker, scored)
     causal, smoothed = (
         Estimate(degrees_between(one.angles_rad, truth.angles_rad)[scored], np.degrees(one.angles_sd_rad)[scored])
@@ -158,7 +159,14 @@ def _score_run(
         longest_s(names.wrong, truth.timestamp_s[scored]),
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
         compute_reading(
-            truth, scored, truth.angles_rad, causal.error_deg, causal.sd_deg, unused=names.missed, shown=names.shown
+            time_s,
+            find_moves_rad(truth, time_s),
+            truth.angles_rad,
+            scored,
+            causal.error_deg,
+            causal.sd_deg,
+            unused=names.missed,
+            shown=names.shown,
         ),
     )
 

@@ -30,7 +30,7 @@ from tests.accuracy.carpus import (
 )
 from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import rule_table
-from tests.accuracy.readings import WRIST_COLUMNS, Reading, ReadRow, compute_reading, mean, rms
+from tests.accuracy.readings import WRIST_COLUMNS, Reading, ReadRow, compute_reading, find_moves_rad, mean, rms
 from tests.accuracy.scores import Mode, degrees_between, longest_s
 from tests.rendered import read_truth
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
@@ -210,6 +210,8 @@ def _score_run(
     wrist_deg = degrees_between(live.angles_rad, truth.angles_rad)[kept]
     wrist_sd_deg = np.degrees(live.angles_sd_rad)[kept]
     seen, compared = find_seen_joints(names.present), readable(joint_true)[kept]
+    time_s = truth.time_s[kept]
+    moves_rad = find_moves_rad(truth, time_s)
     discs = {"unused": names.missed, "shown": names.shown}
     joints_seen_deg = np.where(seen & compared, joint_deg, np.nan)
     return HandRun(
@@ -230,8 +232,8 @@ def _score_run(
         longest_s(names.wrong, truth.timestamp_s[kept]),
         names.missed,
         names.shown,
-        compute_reading(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, **discs),
-        compute_reading(truth, kept, joint_true, joints_seen_deg, joint_sd_deg, **discs),
+        compute_reading(time_s, moves_rad, truth.angles_rad, kept, wrist_deg, wrist_sd_deg, **discs),
+        compute_reading(time_s, moves_rad, joint_true, kept, joints_seen_deg, joint_sd_deg, **discs),
     )
 
 
@@ -270,35 +272,20 @@ class Figures:
         return self.sd / self.rmse
 
 
-@dataclass(frozen=True, slots=True)
-class HandJob:
-    """One recording of one row."""
-
-    row: HandScenario
-    number: int
-    mode: Mode
-    first_seed: int = REPORT_SEEDS
-
-
-def hand_job_done(job: HandJob) -> HandRun:
-    """The recording tracked."""
-    run = run_on_blobs if job.mode == "blobs" else run_on_pictures
+def run_hand_job(job: tuple[HandScenario, int, Mode]) -> HandRun:
+    """The recording of a row and number tracked."""
+    row, number, mode = job
     with threadpool_limits(1):
-        return run(job.row, job.row.spec(job.number, job.first_seed))
+        return (run_on_blobs if mode == "blobs" else run_on_pictures)(row, row.spec(number))
 
 
-def hand_jobs(rows: Sequence[HandScenario], seeds: int, pictures: int, first_seed: int = REPORT_SEEDS) -> list[HandJob]:
+def run_hands(rows: Sequence[HandScenario], seeds: int, pictures: int, processes: int) -> list[HandRun]:
     """As :func:`tests.accuracy.jobs.make_jobs`: pictures where a row wants them, else simulated measurements."""
-    out = [HandJob(row, i, "pictures", first_seed) for row in rows if row.pictures for i in range(pictures)]
+    jobs: list[tuple[HandScenario, int, Mode]] = []
+    jobs += [(row, i, "pictures") for row in rows if row.pictures for i in range(pictures)]
     by_blobs = [row for row in rows if not (row.pictures and pictures)]
-    return out + [
-        HandJob(row, i, "blobs", first_seed) for row in by_blobs for i in range(max(1, seeds * row.weight // 2))
-    ]
-
-
-def all_hand_runs(jobs: Sequence[HandJob], processes: int) -> list[HandRun]:
-    """Runs of all jobs, in their order."""
-    return side_by_side(hand_job_done, jobs, processes)
+    jobs += [(row, i, "blobs") for row in by_blobs for i in range(max(1, seeds * row.weight // 2))]
+    return side_by_side(run_hand_job, jobs, processes)
 
 
 def figures(runs: Sequence[HandRun], group: str) -> Figures:

@@ -6,7 +6,6 @@ import multiprocessing
 import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
@@ -14,7 +13,7 @@ from tqdm import tqdm
 
 from carpus.core.simulation.recording import render_cached
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
-from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
+from tests.accuracy.scenarios import Scenario
 from tests.accuracy.scores import Mode, Run
 from tests.accuracy.simplest import simplest_run
 from tests.simulation.measurements import measurement_sequence
@@ -22,41 +21,32 @@ from tests.simulation.measurements import measurement_sequence
 BLOB_SECONDS, PICTURE_SECONDS = 8.0, 7.0
 
 
-@dataclass(frozen=True, slots=True)
-class Job:
-    """One recording of one row by all methods."""
-
-    scenario: Scenario
-    seed: int
-    mode: Mode
+Job = tuple[Scenario, int, Mode]
+"""A row, its seed, and whether it is rendered."""
 
 
 def run_job(job: Job) -> list[Run]:
     """Carpus and the simplest thing on one recording."""
+    row, seed, mode = job
     with threadpool_limits(1):
-        if job.mode == "blobs":
-            sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
-            carpus, begin_s = run_on_blobs(job.scenario, sequence)
-            simplest = simplest_run(job.scenario, sequence, begin_s)
-        else:
-            spec = job.scenario.spec(job.seed, PICTURE_SECONDS)
-            folder = render_cached(spec)
-            carpus, sequence, begin_s = run_on_pictures(job.scenario.name, spec, folder)
-            simplest = simplest_run(job.scenario, sequence, begin_s, folder)
-        return [carpus, simplest]
+        if mode == "blobs":
+            sequence = measurement_sequence(row.spec(seed, BLOB_SECONDS))
+            carpus, begin_s = run_on_blobs(row, sequence)
+            return [carpus, simplest_run(row, sequence, begin_s)]
+        spec = row.spec(seed, PICTURE_SECONDS)
+        folder = render_cached(spec)
+        carpus, sequence, begin_s = run_on_pictures(row.name, spec, folder)
+        return [carpus, simplest_run(row, sequence, begin_s, folder)]
 
 
-def make_jobs(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: int = REPORT_SEEDS) -> list[Job]:
+def make_jobs(rows: Sequence[Scenario], seeds: int, pictures: int) -> list[Job]:
     """``pictures`` rendered recordings of every row that wants them, these first: they take longest; of every other,
-    and where no pictures are asked for of all, ``seeds`` simulated measurements. Seeds of a row from ``first`` on."""
-    out = [
-        Job(scenario, seed, "pictures")
-        for scenario in scenarios
-        if scenario.pictures
-        for seed in scenario.seeds(pictures, first)[:pictures]
+    and where no pictures are asked for of all, ``seeds`` simulated measurements."""
+    out: list[Job] = [
+        (row, seed, "pictures") for row in rows if row.pictures for seed in row.seeds(pictures)[:pictures]
     ]
-    by_blobs = [scenario for scenario in scenarios if not (scenario.pictures and pictures)]
-    return out + [Job(scenario, seed, "blobs") for scenario in by_blobs for seed in scenario.seeds(seeds, first)]
+    by_blobs = [row for row in rows if not (row.pictures and pictures)]
+    return out + [(row, seed, "blobs") for row in by_blobs for seed in row.seeds(seeds)]
 
 
 _Job = TypeVar("_Job")

@@ -47,43 +47,24 @@ class Reading:
 
 
 def compute_reading(
-    truth: Truth,
-    frames: NDArray[np.bool_],
-    true_rad: FloatArray,
-    error_deg: FloatArray,
-    sd_deg: FloatArray,
-    *,
-    unused: int,
-    shown: int,
-) -> Reading:
-    """Of the scored ``frames`` (N,) of a recording: true angles (N, A), and the errors (F, A) and sds (F, A) of these
-    frames alone."""
-    time_s = truth.time_s[frames]
-    near = np.abs(true_rad[frames] - true_rad[0]) < AT_NEUTRAL_RAD
-    return compute_reading_of_frames(
-        time_s, _moves_rad(truth, time_s), true_rad[frames], near, error_deg, sd_deg, unused=unused, shown=shown
-    )
-
-
-def compute_reading_of_frames(
     time_s: FloatArray,
     moves_rad: FloatArray,
     true_rad: FloatArray,
-    near_neutral: NDArray[np.bool_],
-    error_deg: FloatArray,
+    frames: NDArray[np.bool_],
+    error: FloatArray,
     sd_deg: FloatArray,
     *,
     unused: int,
     shown: int,
 ) -> Reading:
-    """The same from the times (F,) of the scored frames, all that moves in them (F, K), the true angles (F, A) and
-    where these truly are as in the neutral pose (F, A)."""
-    error = error_deg
+    """Of the scored ``frames`` (N,) of a recording: their times (F,), all that moves in them (F, K), the true angles of
+    all frames (N, A), and the errors (F, A) and sds (F, A), degrees."""
+    near_neutral = np.abs(true_rad[frames] - true_rad[0]) < AT_NEUTRAL_RAD
     known = near_neutral & np.isfinite(error)
     count = known.sum(axis=0)
     zero = np.where(count >= _LEAST_FRAMES, np.where(known, error, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan)
     windows, ends = find_strokes(time_s, moves_rad)
-    true_deg = np.degrees(true_rad)
+    true_deg = np.degrees(true_rad[frames])
     ranges = [_range_error(true_deg[w], error[w]) for w in windows]
     at_end = [_middle(error[np.abs(time_s - end) <= _END_S]) for end in ends]
     width = error.shape[1]
@@ -99,12 +80,8 @@ def compute_reading_of_frames(
     )
 
 
-def find_truth_strokes(truth: Truth, time_s: FloatArray) -> tuple[list[slice], FloatArray]:
-    """Repetitions and ends of strokes at ``time_s`` (N,) of a simulated recording, as :func:`strokes_in`."""
-    return find_strokes(time_s, _moves_rad(truth, time_s))
-
-
-def _moves_rad(truth: Truth, time_s: FloatArray) -> FloatArray:
+def find_moves_rad(truth: Truth, time_s: FloatArray) -> FloatArray:
+    """All angles (F, K) that the simulated hand moves at these times."""
     motion = create_motion(truth.spec)
     return np.hstack((motion.wrist_angles_rad(time_s), motion.joint_angles_rad(time_s)))
 

@@ -45,10 +45,10 @@ class Scenario:
         usual = {"seed": seed, "seconds": seconds, "hand": "left" if seed % 2 else "right", "speed_hz": speed}
         return RecordingSpec(**{**usual, **self.trouble, **self.options})
 
-    def seeds(self, count: int, first: int = REPORT_SEEDS) -> list[int]:
+    def seeds(self, count: int) -> list[int]:
         """Seeds of this row alone, the same ones whatever other rows there are."""
         own = sum(ord(letter) * 31**i for i, letter in enumerate(self.name)) % 4000
-        return [first + 100 * own + i for i in range(count * self.times_seeds)]
+        return [REPORT_SEEDS + 100 * own + i for i in range(count * self.times_seeds)]
 
 
 WRIST = (

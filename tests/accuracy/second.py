@@ -19,10 +19,10 @@ from tests.accuracy.carpus import enough_inside, label_blobs, measure_session, n
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, find_seen_joints, readable, with_end_joints
 from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import mark_table
-from tests.accuracy.readings import AT_NEUTRAL_RAD, WRIST_COLUMNS, Reading, ReadRow, compute_reading_of_frames
+from tests.accuracy.readings import WRIST_COLUMNS, Reading, ReadRow, compute_reading
 from tests.accuracy.scores import degrees_between
 from tests.second_patient.motions import ROWS, Row, make_motion
-from tests.second_patient.recording import cache_recording, clear_px, make_take
+from tests.second_patient.recording import Take, cache_recording
 
 SECOND_SEEDS = 9_000_000
 """Seeds of these rows start here, sides in turn."""
@@ -66,10 +66,9 @@ def _track_row(row: Row, seed: int) -> SecondRun:
 
     def reading(true: FloatArray, found: FloatArray, sd: FloatArray, where: NDArray[np.bool_] | None = None) -> Reading:
         error, sd_deg = degrees_between(found, true)[kept], np.degrees(sd)[kept]
-        near = (np.abs(true - true[0]) < AT_NEUTRAL_RAD)[kept]
         error = error if where is None else np.where(where, error, np.nan)
         discs = {"unused": names.missed, "shown": names.shown}
-        return compute_reading_of_frames(time_s, moves, true[kept], near, error, sd_deg, **discs)
+        return compute_reading(time_s, moves, true, kept, error, sd_deg, **discs)
 
     motion = session.motion
     joints = None
@@ -104,7 +103,7 @@ def _clickable_seed(row: Row, seed: int) -> int:
     """The seed, or the next of the same side whose discs stand apart in the first picture: others could not be told
     apart by a click, and a therapist would move the camera nearer."""
     tries = range(seed, seed + 1000 * _MOST_TRIES, 1000)
-    return next((one for one in tries if clear_px(make_take(row, one, seconds=0.1)) >= LEAST_CLEAR_PX), seed)
+    return next((one for one in tries if Take(row, one, seconds=0.1).clear_px() >= LEAST_CLEAR_PX), seed)
 
 
 def _read_rows(runs: Sequence[SecondRun], rows: Sequence[Row]) -> Iterator[ReadRow]:

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from carpus.core.model.camera import Camera
-from carpus.core.model.hand.protocols import MarkerProtocol, get_protocol
+from carpus.core.model.hand.protocols import get_protocol
 from carpus.core.model.types import FloatArray, Side
 from tests.second_patient.discs import (
     NAMES,
@@ -35,15 +35,23 @@ _HELD_M = 0.016
 _IN_PLANE = [NAMES.index(name) for name in ("WRIST", "MCP2", "MCP3", "MCP4", "MCP5")]
 
 
-@dataclass(frozen=True, slots=True)
 class Hung:
-    """A camera in the room: ``turn`` (3, 3) and ``shift_m`` (3,) take points of the room to its axes; the table top is
-    ``table_m`` below the room's zero."""
+    """The camera of a seed in the room of a hand, which is ``mirror``-ed: ``turn`` (3, 3) and ``shift_m`` (3,) take
+    points of the room to its axes; the table top is ``table_m`` below the room's zero."""
 
-    camera: Camera
-    turn: FloatArray
-    shift_m: FloatArray
-    table_m: float
+    def __init__(self, seed: int, mirror: FloatArray) -> None:
+        rng = np.random.default_rng([seed, 1511])
+        focal = float(rng.uniform(522.0, 552.0))
+        tall = round(focal * float(rng.uniform(0.997, 1.003)), 2)
+        middle = [round(at + float(rng.uniform(-7.0, 7.0)), 2) for at in (319.5, 239.5)]
+        bent = [round(float(rng.uniform(*ends)), 4) for ends in ((0.0, 0.04), (-0.08, 0.0))]
+        self.camera = Camera(round(focal, 2), tall, *middle, distortion=(*bent, 0.0, 0.0, 0.0), origin="file")
+        tilt, lean, yaw = np.radians(rng.uniform([-5.0, -5.0, -14.0], [6.0, 5.0, 14.0]))
+        self.turn = about(0, tilt) @ about(1, lean) @ about(2, yaw) @ _DOWN
+        distance = float(rng.uniform(0.64, 0.76))
+        aim = np.array([rng.uniform(-0.03, 0.03), rng.uniform(0.0, 0.03), distance])
+        self.shift_m = aim - self.turn @ (mirror * [0.025, 0.0, 0.0])
+        self.table_m = float(rng.uniform(0.085, 0.12))
 
     def to_camera(self, room_m: FloatArray) -> FloatArray:
         """Points (..., 3) of the room in the camera's axes."""
@@ -59,27 +67,6 @@ class Hung:
         v = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y
         camera = self.camera
         return np.stack((camera.fx_px * u + camera.cx_px, camera.fy_px * v + camera.cy_px), axis=-1)
-
-
-def hang_camera(seed: int, mirror: FloatArray) -> Hung:
-    """The camera of a seed over a hand whose room is ``mirror``-ed."""
-    rng = np.random.default_rng([seed, 1511])
-    focal = float(rng.uniform(522.0, 552.0))
-    camera = Camera(
-        round(focal, 2),
-        round(focal * float(rng.uniform(0.997, 1.003)), 2),
-        round(319.5 + float(rng.uniform(-7.0, 7.0)), 2),
-        round(239.5 + float(rng.uniform(-7.0, 7.0)), 2),
-        distortion=(round(float(rng.uniform(0.0, 0.04)), 4), round(float(rng.uniform(-0.08, 0.0)), 4), 0.0, 0.0, 0.0),
-        origin="file",
-    )
-    tilt, lean, yaw = np.radians(rng.uniform([-5.0, -5.0, -14.0], [6.0, 5.0, 14.0]))
-    turn = about(0, tilt) @ about(1, lean) @ about(2, yaw) @ _DOWN
-    middle = np.array([0.025, 0.0, 0.0])
-    distance = float(rng.uniform(0.64, 0.76))
-    aim = np.array([rng.uniform(-0.03, 0.03), rng.uniform(0.0, 0.03), distance])
-    shift = aim - turn @ (mirror * middle)
-    return Hung(camera, turn, shift, float(rng.uniform(0.085, 0.12)))
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -187,7 +174,6 @@ def _held(skin: Skin, stuck: StuckDiscs) -> Skin:
     return Skin(skin.corner_m, skin.normal, skin.triangle, weight, skin.knuckle, skin.tendon)
 
 
-@dataclass(frozen=True, slots=True, repr=False)
 class Truth:
     """N frames, M discs of the protocol, 21 finger angles (0 with ``wrist6``).
 
@@ -195,58 +181,34 @@ class Truth:
     discs of that frame. ``position_m`` (N, 3) of the WRIST disc and ``rotation_w2_w0`` (N, 3, 3) of the bones;
     ``angles_rad`` (N, 3) clinical; ``joint_angles_rad`` (N, J) of the bones, those of ring and little finger against
     their own metacarpals; ``disc_position_cam_m`` (N, M, 3) centres on the skin; ``disc_pixel`` (N, M, 2) as a lens
-    without distortion sees them; ``visible_share`` (N, M) of each disc's paper.
+    without distortion sees them; ``visible_share`` (N, M) of each disc's paper, unknown
+    until it is rendered.
     """
 
-    side: Side
-    protocol: MarkerProtocol
-    camera: Camera
-    timestamp_s: FloatArray
-    position_m: FloatArray
-    rotation_w2_w0: FloatArray
-    angles_rad: FloatArray
-    joint_angles_rad: FloatArray
-    joint_position_w0_m: FloatArray
-    disc_position_cam_m: FloatArray
-    disc_pixel: FloatArray
-    visible_share: FloatArray
-    marker_position_w0_m: FloatArray
-    rotation_w0_cam: FloatArray
-    translation_w0_cam_m: FloatArray
-
-
-def compute_truth(
-    row: Row, patient: Patient, motion: Motion, hung: Hung, time_s: FloatArray, stamp_s: FloatArray
-) -> Truth:
-    """True values at times (N,) after the first; nothing is rendered, so what is visible is still unknown."""
-    protocol = get_protocol(row.protocol)
-    rows = [NAMES.index(name) for name in protocol.markers]
-    posture = motion(time_s)
-    placed = patient.placed(posture)
-    disc = patient.discs_m(posture)
-    turn0 = _fixed(patient, placed)[0]
-    disc0 = patient.discs_m(motion(np.zeros(1)))[0]
-    axes = frame_of_discs(disc0, turn0[:, 2])
-    wrist = NAMES.index("WRIST")
-    rotation = axes.T @ _fixed(patient, placed) @ turn0.T @ axes
-    cam = hung.to_camera(disc[:, rows])
-    return Truth(
-        side=patient.side,
-        protocol=protocol,
-        camera=hung.camera,
-        timestamp_s=stamp_s,
-        position_m=(disc[:, wrist] - disc0[wrist]) @ axes,
-        rotation_w2_w0=rotation,
-        angles_rad=clinical(rotation, patient.side),
-        joint_angles_rad=posture.fingers if protocol.has_fingers else np.empty((len(time_s), 0)),
-        joint_position_w0_m=(joint_centres(patient, placed)[:, rows] - disc0[wrist]) @ axes,
-        disc_position_cam_m=cam,
-        disc_pixel=hung.camera.project(cam),
-        visible_share=np.full((len(time_s), len(rows)), np.nan),
-        marker_position_w0_m=(disc0[rows] - disc0[wrist]) @ axes,
-        rotation_w0_cam=hung.turn @ axes,
-        translation_w0_cam_m=hung.to_camera(disc0[wrist]),
-    )
+    def __init__(
+        self, row: Row, patient: Patient, motion: Motion, hung: Hung, time_s: FloatArray, stamp_s: FloatArray
+    ) -> None:
+        self.side, self.protocol, self.camera, self.timestamp_s = (
+            patient.side,
+            get_protocol(row.protocol),
+            hung.camera,
+            stamp_s,
+        )
+        rows, wrist = [NAMES.index(name) for name in self.protocol.markers], NAMES.index("WRIST")
+        posture = motion(time_s)
+        placed, disc = patient.placed(posture), patient.discs_m(posture)
+        fixed, disc0 = _fixed(patient, placed), patient.discs_m(motion(np.zeros(1)))[0]
+        axes = frame_of_discs(disc0, fixed[0][:, 2])
+        self.position_m = (disc[:, wrist] - disc0[wrist]) @ axes
+        self.rotation_w2_w0 = axes.T @ fixed @ fixed[0].T @ axes
+        self.angles_rad = clinical(self.rotation_w2_w0, patient.side)
+        self.joint_angles_rad = posture.fingers if self.protocol.has_fingers else np.empty((len(time_s), 0))
+        self.joint_position_w0_m = (joint_centres(patient, placed)[:, rows] - disc0[wrist]) @ axes
+        self.disc_position_cam_m = hung.to_camera(disc[:, rows])
+        self.disc_pixel = hung.camera.project(self.disc_position_cam_m)
+        self.visible_share = np.full((len(time_s), len(rows)), np.nan)
+        self.marker_position_w0_m = (disc0[rows] - disc0[wrist]) @ axes
+        self.rotation_w0_cam, self.translation_w0_cam_m = hung.turn @ axes, hung.to_camera(disc0[wrist])
 
 
 def _fixed(patient: Patient, placed: Placed) -> FloatArray:

@@ -92,32 +92,21 @@ def fragments(
     return Fragments(sample // columns, sample % columns, kept[owner], share, 1.0 / nearness[seen])
 
 
-@dataclass(frozen=True, slots=True, repr=False)
 class Look:
-    """Colours are linear light, red green blue. ``lamp`` (3,) unit way to the lamp in the room; ``paint`` (V, 3) of the
-    skin's corners; ``table`` (H, W, 3) and its ``table_depth_m`` (H, W) with the cushion, as seen without a hand."""
+    """Looks of a seed. Colours are linear light, red green blue. ``lamp`` (3,) unit way to the lamp in the room;
+    ``paint`` (V, 3) of the skin's corners; ``table`` (H, W, 3) and its ``table_depth_m`` (H, W) with the cushion, as
+    seen without a hand."""
 
-    paper: FloatArray
-    lamp: FloatArray
-    lamp_light: FloatArray
-    sky_light: FloatArray
-    gloss: float
-    paint: FloatArray
-    table: FloatImage
-    table_depth_m: FloatImage
-
-
-def make_look(patient: Patient, hung: Hung, seed: int) -> Look:
-    """Looks of a seed."""
-    rng = np.random.default_rng([seed, 1607])
-    swing, high = rng.uniform(0.0, 2.0 * np.pi), np.radians(rng.uniform(48.0, 75.0))
-    lamp = np.array([np.cos(swing) * np.cos(high), np.sin(swing) * np.cos(high), np.sin(high)])
-    warm = float(rng.uniform(-0.1, 0.1))
-    lamp_light = float(rng.uniform(0.55, 0.85)) * np.array([1.0 + warm, 1.0, 1.0 - warm])
-    sky_light = float(rng.uniform(0.30, 0.45)) * np.array([1.0, 1.0, 1.0 + 0.4 * warm])
-    paper = np.array([rng.uniform(0.012, 0.035), rng.uniform(0.07, 0.15), rng.uniform(0.36, 0.58)])
-    table, depth = _background(hung, patient, lamp, lamp_light, sky_light, rng)
-    return Look(paper, lamp, lamp_light, sky_light, float(rng.uniform(0.02, 0.09)), _paint(patient, rng), table, depth)
+    def __init__(self, patient: Patient, hung: Hung, seed: int) -> None:
+        rng = np.random.default_rng([seed, 1607])
+        swing, high = rng.uniform(0.0, 2.0 * np.pi), np.radians(rng.uniform(48.0, 75.0))
+        self.lamp = np.array([np.cos(swing) * np.cos(high), np.sin(swing) * np.cos(high), np.sin(high)])
+        warm = float(rng.uniform(-0.1, 0.1))
+        self.lamp_light = float(rng.uniform(0.55, 0.85)) * np.array([1.0 + warm, 1.0, 1.0 - warm])
+        self.sky_light = float(rng.uniform(0.30, 0.45)) * np.array([1.0, 1.0, 1.0 + 0.4 * warm])
+        self.paper = np.array([rng.uniform(0.012, 0.035), rng.uniform(0.07, 0.15), rng.uniform(0.36, 0.58)])
+        self.table, self.table_depth_m = _background(hung, patient, self, rng)
+        self.gloss, self.paint = float(rng.uniform(0.02, 0.09)), _paint(patient, rng)
 
 
 def _paint(patient: Patient, rng: np.random.Generator) -> FloatArray:
@@ -152,14 +141,7 @@ def _paint(patient: Patient, rng: np.random.Generator) -> FloatArray:
     return np.asarray(out * (1.0 - sleeve) + sleeve * cloth * ribs)
 
 
-def _background(
-    hung: Hung,
-    patient: Patient,
-    lamp: FloatArray,
-    lamp_light: FloatArray,
-    sky_light: FloatArray,
-    rng: np.random.Generator,
-) -> tuple[FloatImage, FloatImage]:
+def _background(hung: Hung, patient: Patient, look: Look, rng: np.random.Generator) -> tuple[FloatImage, FloatImage]:
     """Table and cushion."""
     camera = hung.camera
     v, u = np.mgrid[0 : camera.height_px, 0 : camera.width_px].astype(np.float64)
@@ -178,7 +160,11 @@ def _background(
         along, across = rng.uniform(4.0, 18.0), rng.uniform(60.0, 420.0)
         bent = place[..., 1] + 0.006 * np.sin(along * place[..., 0] + rng.uniform(0.0, 6.3))
         grain += np.sin(across * bent + rng.uniform(0.0, 6.3)) / 7.0
-    table = wood * (1.0 + float(rng.uniform(0.04, 0.22)) * grain[..., None]) * (lamp_light * lamp[2] + sky_light)
+    table = (
+        wood
+        * (1.0 + float(rng.uniform(0.04, 0.22)) * grain[..., None])
+        * (look.lamp_light * look.lamp[2] + look.sky_light)
+    )
     box, quads = _cushion(hung)
     cam = hung.to_camera(patient.mirror * box)
     faces = quads[:, ::-1] if patient.side == "left" else quads
@@ -188,7 +174,9 @@ def _background(
     normal = np.cross(room[triangle[:, 1]] - room[triangle[:, 0]], room[triangle[:, 2]] - room[triangle[:, 0]])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     cloth = np.array([[0.16, 0.17, 0.18], [0.40, 0.36, 0.30], [0.12, 0.24, 0.20]])[rng.integers(3)]
-    lit = np.clip(normal @ lamp, 0.0, 1.0)[:, None] * lamp_light + sky_light * (0.6 + 0.4 * normal[:, 2:])
+    lit = np.clip(normal @ look.lamp, 0.0, 1.0)[:, None] * look.lamp_light + look.sky_light * (
+        0.6 + 0.4 * normal[:, 2:]
+    )
     weave = 1.0 + 0.06 * rng.normal(size=(len(seen.row), 1))
     table[seen.row, seen.column] = cloth * lit[seen.triangle] * weave
     depth[seen.row, seen.column] = seen.depth_m
@@ -331,49 +319,25 @@ def _shadowed(hung: Hung, look: Look, body: Body, faces: NDArray[np.int64]) -> F
     return look.table * (np.float32(1.0) - shade[..., None] * ((1.0 - dark) * 0.85).astype(np.float32))
 
 
-@dataclass(frozen=True, slots=True, repr=False)
 class Sensor:
-    """One unit: its lens, its colours and its depth, and the noise that it draws on."""
+    """One unit for pictures of ``shape``: its lens, its colours and its depth, and the noise that it draws on."""
 
-    gain: FloatArray
-    falloff: FloatImage
-    blur_px: float
-    shot: float
-    read: float
-    chroma_blur_px: float
-    disparity_sd_px: float
-    pattern_px: FloatImage
-    scale: float
-    bank: tuple[FloatImage, ...]
-    patch: tuple[FloatImage, ...]
-    seed: int
-
-
-def make_sensor(seed: int, shape: tuple[int, int]) -> Sensor:
-    """The unit of a seed for pictures of ``shape``."""
-    rng = np.random.default_rng([seed, 1709])
-    v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
-    away = np.hypot((u - 0.5 * shape[1]) / (0.5 * shape[1]), (v - 0.5 * shape[0]) / (0.5 * shape[1]))
-    falloff = (1.0 - float(rng.uniform(0.10, 0.32)) * away**2).astype(np.float32)
-    warm = float(rng.uniform(-0.10, 0.12))
-    gain = float(rng.uniform(0.85, 1.15)) * np.array([1.0 + warm, 1.0 + float(rng.uniform(-0.04, 0.04)), 1.0 - warm])
-    bank = tuple(rng.standard_normal((*shape, 3), dtype=np.float32) for _ in range(_BANK))
-    patch = tuple(_patches(rng.standard_normal(shape, dtype=np.float32)) for _ in range(_BANK))
-    pattern = 0.045 * _patches(rng.standard_normal(shape, dtype=np.float32))
-    return Sensor(
-        gain,
-        falloff,
-        float(rng.uniform(0.45, 0.75)),
-        float(rng.uniform(1.5e-4, 5e-4)),
-        float(rng.uniform(0.8e-3, 2.2e-3)),
-        float(rng.uniform(0.6, 1.1)),
-        float(rng.uniform(0.055, 0.10)),
-        pattern.astype(np.float32),
-        1.0 + float(np.clip(rng.normal(0.0, 0.003), -0.006, 0.006)),
-        bank,
-        patch,
-        seed,
-    )
+    def __init__(self, seed: int, shape: tuple[int, int]) -> None:
+        rng, self.seed = np.random.default_rng([seed, 1709]), seed
+        v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
+        away = np.hypot((u - 0.5 * shape[1]) / (0.5 * shape[1]), (v - 0.5 * shape[0]) / (0.5 * shape[1]))
+        self.falloff = (1.0 - float(rng.uniform(0.10, 0.32)) * away**2).astype(np.float32)
+        warm = float(rng.uniform(-0.10, 0.12))
+        bright = float(rng.uniform(0.85, 1.15))
+        self.gain = bright * np.array([1.0 + warm, 1.0 + float(rng.uniform(-0.04, 0.04)), 1.0 - warm])
+        self.bank = [rng.standard_normal((*shape, 3), dtype=np.float32) for _ in range(_BANK)]
+        self.patch = [_patches(rng.standard_normal(shape, dtype=np.float32)) for _ in range(_BANK)]
+        pattern = 0.045 * _patches(rng.standard_normal(shape, dtype=np.float32))
+        self.pattern_px = pattern.astype(np.float32)
+        self.blur_px, self.shot, self.read, self.chroma_blur_px, self.disparity_sd_px = rng.uniform(
+            [0.45, 1.5e-4, 0.8e-3, 0.6, 0.055], [0.75, 5e-4, 2.2e-3, 1.1, 0.10]
+        ).tolist()
+        self.scale = 1.0 + float(np.clip(rng.normal(0.0, 0.003), -0.006, 0.006))
 
 
 def _patches(white: FloatImage) -> FloatImage:
@@ -433,7 +397,7 @@ def read_depth(sensor: Sensor, depth_m: FloatImage, frame: int) -> DepthImage:
     return np.where(blind, 0, out).astype(np.uint16)
 
 
-def _rolled(bank: tuple[FloatImage, ...], rng: np.random.Generator) -> FloatImage:
+def _rolled(bank: list[FloatImage], rng: np.random.Generator) -> FloatImage:
     """One of the drawn noises, shifted: new for every frame without being drawn for it."""
     one = bank[int(rng.integers(len(bank)))]
     down, right, flip = int(rng.integers(one.shape[0])), int(rng.integers(one.shape[1])), int(rng.integers(2))

@@ -17,7 +17,7 @@ from carpus.core.session.reader import read_session
 from tests.second_patient import recording
 from tests.second_patient.discs import NAMES, PALM
 from tests.second_patient.motions import ROWS, Row
-from tests.second_patient.recording import CLICKS_FILE, Take, make_take, record_take
+from tests.second_patient.recording import CLICKS_FILE, Take, record_take
 from tests.sources import ROOT, SOURCES, nodes
 
 pytestmark = pytest.mark.xdist_group("second patient")
@@ -34,7 +34,7 @@ ANGLES = joint_angle_names(dip_free=True)
 @pytest.fixture(scope="module")
 def take() -> Take:
     """A right hand in a power grip."""
-    return make_take(CUPPED, 12)
+    return Take(CUPPED, 12)
 
 
 def imported(path: Path) -> set[str]:
@@ -88,7 +88,7 @@ def test_truth_goes_round(take: Take) -> None:
     truth = take.truth
     wrist = truth.translation_w0_cam_m + truth.position_m @ truth.rotation_w0_cam.T
     assert np.allclose(wrist, truth.disc_position_cam_m[:, 0], atol=1e-9)
-    rigid = make_take(QUIET, 12).truth
+    rigid = Take(QUIET, 12).truth
     carried = rigid.position_m[:, None] + np.einsum("nij,mj->nmi", rigid.rotation_w2_w0, rigid.marker_position_w0_m)
     cam = rigid.translation_w0_cam_m + carried @ rigid.rotation_w0_cam.T
     assert np.abs(cam - rigid.disc_position_cam_m).max() < 2e-5
@@ -111,7 +111,7 @@ def test_fingers_angles_are_the_chains_of_the_reference(take: Take) -> None:
 
 @pytest.mark.thorough
 def test_left_mirrors_right() -> None:
-    right, left = (make_take(CUPPED, 12, side) for side in ("right", "left"))
+    right, left = (Take(CUPPED, 12, side) for side in ("right", "left"))
     mirror = np.array([1.0, -1.0, 1.0])
     assert np.allclose(right.truth.angles_rad, left.truth.angles_rad, atol=1e-9)
     assert np.array_equal(right.truth.joint_angles_rad, left.truth.joint_angles_rad)
@@ -127,7 +127,7 @@ def test_left_mirrors_right() -> None:
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
 def test_second_patient_starts_still_and_stays_in_frame(row: Row, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recording, "FPS", 10.0)
-    truth = make_take(row, 12 + ROWS.index(row) % 2).truth
+    truth = Take(row, 12 + ROWS.index(row) % 2).truth
     still = truth.timestamp_s - truth.timestamp_s[0] < 0.6
     assert np.count_nonzero(still) >= 5
     assert np.degrees(np.abs(truth.angles_rad[still])).max() < 0.6
@@ -141,7 +141,7 @@ def test_second_patient_starts_still_and_stays_in_frame(row: Row, monkeypatch: p
 @pytest.mark.thorough
 def test_recording_is_tracked_like_its_truth(tmp_path: Path) -> None:
     folder = tmp_path / "take"
-    truth = record_take(make_take(RESTING, 12, seconds=0.9), folder)
+    truth = record_take(Take(RESTING, 12, seconds=0.9), folder)
     output = tmp_path / "session.h5"
     source = TumFolder(folder)
     track_recording(source, read_clicks(folder / CLICKS_FILE), output, TrackSettings())
