@@ -7,17 +7,12 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.window import Desktop
 from carpus.app.settings import load_settings
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.records.values import Patient
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import click, click_discs, wait_for_place, wait_for_still_hand
-
-
-def shown(desktop: Desktop, bubble: str) -> bool:
-    return desktop.tour.bubble == bubble
 
 
 def test_first_session_is_guided_by_the_tour(qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path) -> None:
@@ -32,7 +27,7 @@ def test_first_session_is_guided_by_the_tour(qtbot: QtBot, open_desktop: Open, t
     order = []
 
     def go_on(bubble: str) -> None:
-        qtbot.waitUntil(lambda: shown(desktop, bubble))
+        qtbot.waitUntil(lambda: desktop.tour.bubble == bubble)
         order.append(journey.place)
         view = next(view for view in tour._views.values() if view.bubble is not None)
         assert view.isVisible()
@@ -42,13 +37,13 @@ def test_first_session_is_guided_by_the_tour(qtbot: QtBot, open_desktop: Open, t
     wait_for_place(qtbot, desktop.controller, "markers")
     wait_for_still_hand(qtbot, desktop)
     go_on("aim")
-    qtbot.waitUntil(lambda: shown(desktop, "click"))
+    qtbot.waitUntil(lambda: desktop.tour.bubble == "click")
     click_discs(qtbot, desktop, take)
     go_on("check")
-    qtbot.waitUntil(lambda: shown(desktop, "record"))
+    qtbot.waitUntil(lambda: desktop.tour.bubble == "record")
     assert journey.live.screen.bubble.isVisible()
     journey.navigator.switch_screen("report")
-    qtbot.waitUntil(lambda: shown(desktop, "save"))
+    qtbot.waitUntil(lambda: desktop.tour.bubble == "save")
     journey.report.screen.saved.emit(str(tmp_path / "report.pdf"))
     assert not load_settings(tmp_path / "settings").first_start.answered, "it is not finished yet"
     go_on("end")
@@ -64,16 +59,16 @@ def test_tour_escape_ends_the_tour_only(qtbot: QtBot, open_desktop: Open) -> Non
     wait_for_place(qtbot, desktop.controller, "help")
     click(qtbot, journey.help.screen.tour_button)
     wait_for_place(qtbot, desktop.controller, "patients")
-    qtbot.waitUntil(lambda: shown(desktop, "patient"))
+    qtbot.waitUntil(lambda: desktop.tour.bubble == "patient")
     desktop.shell.key_pressed.emit("settings")
     qtbot.waitUntil(lambda: tour.bubble is None)
     desktop.shell.key_pressed.emit("back")
     wait_for_place(qtbot, desktop.controller, "patients")
-    qtbot.waitUntil(lambda: shown(desktop, "patient"))
+    qtbot.waitUntil(lambda: desktop.tour.bubble == "patient")
     journey.patients.screen.new_patient()
     qtbot.waitUntil(lambda: tour.bubble is None)
     journey.patients.screen.form.dismiss()
-    qtbot.waitUntil(lambda: shown(desktop, "patient"))
+    qtbot.waitUntil(lambda: desktop.tour.bubble == "patient")
     desktop.shell.key_pressed.emit("back")
     assert not tour.is_on
     assert journey.place == "patients"

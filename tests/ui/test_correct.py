@@ -6,11 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.records.corrections import ResultDifference
-from carpus.core.session.label_checks import Correction
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.correct.flow import difference_words
@@ -37,41 +36,25 @@ def screen(
     return shown
 
 
-def on_screen(screen: CorrectionScreen, pixel: np.ndarray) -> QPoint:
-    return screen.frame_view.to_screen(float(pixel[0]), float(pixel[1])).toPoint()
-
-
-def drag(qtbot: QtBot, screen: CorrectionScreen, start: np.ndarray, end: np.ndarray) -> None:
+def drag(qtbot: QtBot, screen: CorrectionScreen, *way_px: np.ndarray) -> None:
     left, picture = Qt.MouseButton.LeftButton, screen.frame_view
-    qtbot.mousePress(picture, left, pos=on_screen(screen, start))
-    qtbot.mouseMove(picture, on_screen(screen, end))
-    qtbot.mouseRelease(picture, left, pos=on_screen(screen, end))
+    start, end = (picture.to_screen(*map(float, pixel)).toPoint() for pixel in way_px)
+    qtbot.mousePress(picture, left, pos=start)
+    qtbot.mouseMove(picture, end)
+    qtbot.mouseRelease(picture, left, pos=end)
 
 
-def corrections(screen: CorrectionScreen) -> tuple[Correction, ...]:
-    return screen.edits.corrections()
-
-
-@pytest.fixture
-def asked(screen: CorrectionScreen) -> list[object]:
-    """With what it was to be tracked again."""
-    said: list[object] = []
-    screen.reanalysis_requested.connect(lambda _, corrections: said.append(corrections))
-    return said
-
-
-def test_correction_label_dragged_near_a_blob_snaps_to_its_centre(
-    qtbot: QtBot, screen: CorrectionScreen, asked: list[object]
-) -> None:
+def test_correction_label_dragged_near_a_blob_snaps_to_its_centre(qtbot: QtBot, screen: CorrectionScreen) -> None:
     assert not screen.primary_button.isEnabled()
     drag(qtbot, screen, screen.edits.original_px(ROW)[3], np.array([423.0, 118.0]))
-    (one,) = corrections(screen)
+    (one,) = screen.edits.corrections()
     assert (one.row, one.places["MCP3"]) == (ROW, (420.0, 120.0))
     screen.undo()
     screen.select_marker("MCP3")
     screen.hide_current()
-    qtbot.keyClick(screen, Qt.Key.Key_Return)
-    assert asked == [corrections(screen)]
+    with qtbot.waitSignal(screen.reanalysis_requested) as asked:
+        qtbot.keyClick(screen, Qt.Key.Key_Return)
+    assert asked.args == ["session-7", screen.edits.corrections()]
 
 
 def test_correction_keys_do_the_same_as_the_mouse(qtbot: QtBot, screen: CorrectionScreen) -> None:
@@ -81,10 +64,10 @@ def test_correction_keys_do_the_same_as_the_mouse(qtbot: QtBot, screen: Correcti
     qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Up, Qt.KeyboardModifier.ShiftModifier)
     np.testing.assert_allclose(screen.edits.current_px(ROW)[4], before[4] + [1.0, -10.0], atol=1e-9)
     qtbot.keyClick(screen, "h")
-    assert corrections(screen)[0].places["MCP4"] is None
+    assert screen.edits.corrections()[0].places["MCP4"] is None
     for _ in range(3):
         qtbot.keyClick(screen, "z")
-    assert corrections(screen) == ()
+    assert screen.edits.corrections() == ()
 
 
 def test_correction_occluded_marker_clicked_on_a_blob_moves_there(qtbot: QtBot, screen: CorrectionScreen) -> None:
@@ -96,7 +79,7 @@ def test_correction_occluded_marker_clicked_on_a_blob_moves_there(qtbot: QtBot, 
     spot = screen.edits.model_px(ROW)[number]
     screen.frame_view.blob_px = np.vstack((screen.frame_view.blob_px, spot))
     drag(qtbot, screen, spot, spot)
-    (one,) = corrections(screen)
+    (one,) = screen.edits.corrections()
     np.testing.assert_allclose(one.places["MCP3"], spot, atol=6.0)
 
 
@@ -119,7 +102,7 @@ def test_correction_frames_are_corrected_independently_in_a_shorter_session(
     screen.step_frames(5)
     qtbot.waitUntil(lambda: screen.frame_view.row == ROW + 5)
     screen.place_marker("MCP2", screen.edits.original_px(ROW + 5)[2])
-    assert [one.row for one in corrections(screen)] == [ROW, ROW + 5]
+    assert [one.row for one in screen.edits.corrections()] == [ROW, ROW + 5]
     assert "00:20.6" in screen.primary_button.text()
     screen.show_session("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
     assert screen.hint.text() == "", "its picture is being read"
