@@ -67,7 +67,6 @@ def test_parse_sensor_restores_every_sensor(sensor: DepthSensor) -> None:
         {"stays": {"fixed_m": float("nan"), "square_per_m": 0.0}},
         {"stays": 3},
         {"patch_px": 0.0},
-        {"patch_px": "9"},
         {"averages": 1},
         {"nearest_m": 7.0},
         {"farthest_m": float("inf")},

@@ -99,7 +99,7 @@ def test_tracking_says_what_of_the_camera_is_assumed(recording: Path, tmp_path: 
     copy = linked(recording, tmp_path / "copy", CAMERA_FILE)
     assert CAMERA_FILE in track_file(command, copy, tmp_path / "a.h5", clicks=none)[1]
     source, path = TumFolder(recording), tmp_path / "r.oni"
-    write_oni(path, convert_to_millimetres(islice(source.frames(), 3)), source.info.camera, fps=30, color="jpeg")
+    write_oni(path, convert_to_millimetres(islice(source.frames(), 3)), source.info.camera, color="jpeg")
     for sidecar in tmp_path.glob("*.yaml"):
         sidecar.unlink()
     assert "depth and colour are aligned" in track_file(command, path, tmp_path / "s.h5", clicks=none)[1]

@@ -22,10 +22,10 @@ START_S = 0.010
 DEPTH_LATE_S = 0.003
 
 
-def color_picture(number: int, width: int = WIDTH, height: int = HEIGHT) -> ByteImage:
+def color_picture(number: int) -> ByteImage:
     """Not the same left for right, and different for each number."""
-    rows, columns = np.mgrid[0:height, 0:width]
-    picture = np.stack([columns * 255 // width, rows * 255 // height, (columns + rows) % 256], -1).astype(np.uint8)
+    rows, columns = np.mgrid[0:HEIGHT, 0:WIDTH]
+    picture = np.stack([columns * 255 // WIDTH, rows * 255 // HEIGHT, (columns + rows) % 256], -1).astype(np.uint8)
     picture[:8, :8] = (37 * number + 11) % 256
     return picture
 
@@ -120,22 +120,14 @@ def rebuilt(data: bytes, change: Change) -> bytes:
     return bytes(out)
 
 
-def with_small_color(data: bytes) -> bytes:
-    """The same recording with colour pictures of half the width and height."""
-    width, height = WIDTH // 2, HEIGHT // 2
-    number = 0
+def with_size(data: bytes, node: int, width: int, height: int) -> bytes:
+    """The same recording with the upper left part of every picture of a stream."""
 
     def change(record: Record, fields: bytes, payload: bytes) -> tuple[bytes, bytes]:
-        nonlocal number
-        if record.node != 2:
-            return fields, payload
-        if b"xnMapOutputMode\0" in fields:
+        if record.node == node and b"xnMapOutputMode\0" in fields:
             fields = fields[:-12] + struct.pack("<III", width, height, 30)
-        if b"oniRequiredFrameSize\0" in fields:
-            fields = fields[:-8] + struct.pack("<Q", width * height * 3)
-        if record.kind == RecordType.NEW_DATA:
-            number += 1
-            payload = color_picture(number, width, height).tobytes()
+        if record.node == node == 2 and record.kind == RecordType.NEW_DATA:
+            payload = np.frombuffer(payload, np.uint8).reshape(HEIGHT, WIDTH, 3)[:height, :width].tobytes()
         return fields, payload
 
     return rebuilt(data, change)

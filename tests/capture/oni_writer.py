@@ -60,7 +60,6 @@ class OniWriter:
         path: Path,
         camera: Camera,
         *,
-        fps: int = 30,
         color: ColorCodec = "jpeg",
         depth: DepthCodec | None = "table",
         depth_unit_m: float = 1e-3,
@@ -68,7 +67,6 @@ class OniWriter:
     ) -> None:
         formats = [code for unit_m, code in _DEPTH_FORMATS if math.isclose(unit_m, depth_unit_m)]
         self._camera = camera
-        self._fps = fps
         self._mirrored = mirrored
         self._streams: dict[NodeType, _Stream] = {}
         self._greatest_us = 0
@@ -129,7 +127,7 @@ class OniWriter:
         is_depth = kind == NodeType.DEPTH
         stream.added_at = self._file.tell()
         self._file.write(self._added(stream, 0, 0xFFFFFFFF))
-        mode = struct.pack("<III", camera.width_px, camera.height_px, self._fps)
+        mode = struct.pack("<III", camera.width_px, camera.height_px, 30)
         self._int(stream, _FRAME_SIZE, camera.width_px * camera.height_px * (2 if is_depth else 3))
         self._int(stream, "xnIsGenerating", 1)
         if is_depth:
@@ -177,12 +175,11 @@ def write_oni(
     frames: Iterable[Frame],
     camera: Camera,
     *,
-    fps: int = 30,
     color: ColorCodec = "jpeg",
     simulated: bool = False,
 ) -> None:
     """Write ``frames``, depth in millimetres, to ``path``, and the camera beside it (``NAME.camera_info.yaml``)."""
-    with closing(OniWriter(path, camera, fps=fps, color=color)) as writer:
+    with closing(OniWriter(path, camera, color=color)) as writer:
         for frame in frames:
             if frame.depth_raw is not None:
                 writer.add_depth(frame.depth_raw, frame.timestamp_s)

@@ -130,11 +130,7 @@ def test_check_camera_settings_reports_registration_mirror_and_clock(
     findings = doctor.check_camera_settings(info, some, [frame.timestamp_s for frame in some])
     assert [finding.name for finding in findings] == ["Depth registration", "Mirror", "Clock"]
     assert [finding.state for finding in findings] == states
-
-
-def test_check_clock_drift_warns() -> None:
-    assert doctor.check_clock(3.0, 3.1, "camera").state == "good"
-    assert doctor.check_clock(1.5, 3.0, "camera").state == "warning"
+    assert doctor.check_clock(1.5, 3.0, "camera").state == "warning", "it drifts"
 
 
 def test_check_open_camera_fault_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -11,33 +12,23 @@ from carpus.core.capture.calibrated_source import save_camera_name, with_given_n
 from carpus.core.capture.source import SERIAL, SourceInfo
 from carpus.core.model.camera import DEFAULT_CAMERA
 from carpus.core.model.errors import OutputNotWritable
-from carpus.core.model.types import Frame
 
 
-class Camera:
-    """A source without pictures."""
-
-    def __init__(self, name: str, **settings: str) -> None:
-        self.info = SourceInfo(name, DEFAULT_CAMERA, True, None, 30.0, settings)
-
-    def frames(self) -> Iterator[Frame]:
-        return iter(())
-
-    def close(self) -> None:
-        pass
+def source(name: str, **settings: str) -> Any:
+    return SimpleNamespace(info=SourceInfo(name, DEFAULT_CAMERA, True, None, 30.0, settings))
 
 
 def test_given_name_applies_only_without_serial(tmp_path: Path) -> None:
-    plain, numbered = Camera("Xtion"), Camera("Xtion", serial="77")
+    plain, numbered = source("Xtion"), source("Xtion", serial="77")
     assert with_given_name(plain, tmp_path) is plain
     save_camera_name(tmp_path, "Xtion", "  room\n3 ")
     named = with_given_name(plain, tmp_path).info
     assert (named.serial, named.is_nameless) == ("room 3", True)
     assert with_given_name(numbered, tmp_path) is numbered
     assert not numbered.info.is_nameless
-    assert SERIAL not in with_given_name(Camera("Carmine"), tmp_path).info.settings
+    assert SERIAL not in with_given_name(source("Carmine"), tmp_path).info.settings
     assert save_camera_name(tmp_path, "Carmine", "room\t 3") == "room 3 (Carmine)"
-    of_both = [with_given_name(Camera(kind), tmp_path).info.serial for kind in ("Xtion", "Carmine")]
+    of_both = [with_given_name(source(kind), tmp_path).info.serial for kind in ("Xtion", "Carmine")]
     assert of_both == ["room 3", "room 3 (Carmine)"], "one would be seen through the other's calibration"
 
 

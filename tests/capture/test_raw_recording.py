@@ -88,26 +88,22 @@ def test_raw_recording_lossless_frames_are_read_back_exactly(tmp_path: Path) -> 
 
 
 def test_raw_recording_layout_matches_independent_reader(tmp_path: Path) -> None:
-    data = write(tmp_path / "take.carpusraw", 3).read_bytes()
-    assert data[:12] == b"CARPUSRW\x02\x00\x00\x00"
-    position, kinds = 12, []
-    while position < len(data):
-        kind, check, time_s, _, number, color_size, depth_size = struct.unpack_from("<4sIdIIII", data, position)
-        end = position + 32 + color_size + depth_size
-        assert zlib.crc32(data[position + 8 : end]) == check
-        kinds.append(kind)
-        color = data[position + 32 : position + 32 + color_size]
-        if kind == b"HEAD":
+    start, *parts = write_records(tmp_path / "take.carpusraw", 3)
+    assert start == b"CARPUSRW\x02\x00\x00\x00"
+    assert [part[:4] for part in parts] == [b"HEAD", b"FRAM", b"FRAM", b"FRAM", b"DONE"]
+    for part in parts:
+        _, check, time_s, _, number, color_size, _ = struct.unpack_from("<4sIdIIII", part)
+        assert zlib.crc32(part[8:]) == check
+        color = part[32 : 32 + color_size]
+        if part[:4] == b"HEAD":
             head = json.loads(color)
             assert head["camera"]["distortion"] == [0.1, -0.2, 0.001, 0.002, 0.3]
             assert head["depth_unit_m"] == 1e-3
-        elif kind == b"FRAM":
+        elif part[:4] == b"FRAM":
             assert time_s == frames(3)[number].timestamp_s
             assert struct.unpack_from("<HHI", color) == (WIDTH, HEIGHT, len(color) - 8)  # one tile
             picture = cv2.imdecode(np.frombuffer(color[8:], np.uint8), cv2.IMREAD_COLOR_RGB)
             assert np.array_equal(picture, color_picture(number))
-        position = end
-    assert kinds == [b"HEAD", b"FRAM", b"FRAM", b"FRAM", b"DONE"]
     assert is_raw_recording(tmp_path / "take.carpusraw")
     assert not is_raw_recording(tmp_path)
 
@@ -174,14 +170,12 @@ def test_raw_recording_one_damaged_byte_loses_one_frame(tmp_path: Path, place: i
         assert [(type(fault), fault.detail) for fault in notices] == [(DamagedFramesExcluded, "1 of 8 frames")]
 
 
-@pytest.mark.parametrize(("gone", "given"), [((4,), 7), ((0,), 7), ((7,), 7), ((3, 4, 6), 5)])
-def test_raw_recording_missing_frames_are_counted_and_notified(
-    tmp_path: Path, gone: tuple[int, ...], given: int
-) -> None:
+@pytest.mark.parametrize("gone", [(0,), (7,), (3, 4, 6)])
+def test_raw_recording_missing_frames_are_counted_and_notified(tmp_path: Path, gone: tuple[int, ...]) -> None:
     path = tmp_path / "take.carpusraw"
     parts = write_records(path, 8)
     _, back, notices = read_back(path, [part for at, part in enumerate(parts) if at - 2 not in gone])
-    assert len(back) == given
+    assert len(back) == 8 - len(gone)
     own = sum(frame.dropped_before for frame in frames(8) if frame.index not in gone)
     assert sum(frame.dropped_before for frame in back) == own + sum(number < 7 for number in gone)
     assert [(type(fault), fault.detail) for fault in notices] == [(DamagedFramesExcluded, f"{len(gone)} of 8 frames")]
