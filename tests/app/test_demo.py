@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QAbstractButton, QLabel
@@ -27,7 +28,9 @@ def _said(desktop: Desktop) -> str:
     return " ".join([*words, desktop.shell.top_bar.camera.text()]).lower()
 
 
-def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_demo_screens_have_a_camera_and_no_setting_is_stored(
+    qtbot: QtBot, demo: Callable[[], Desktop], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     desktop = demo()
     journey, panel = desktop.controller, desktop.welcome.panel
     qtbot.waitUntil(lambda: bool(panel.check_rows), timeout=60_000)
@@ -58,3 +61,5 @@ def test_demo_screens_have_a_camera(qtbot: QtBot, demo: Callable[[], Desktop], m
     assert not card.check_button.isVisible()
     assert not card.calibrate_button.isVisible()
     looks_well()
+    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
+    assert not (tmp_path / "settings").exists()

@@ -51,39 +51,33 @@ def lay(folders: PracticeSystemSettings, content: bytes, name: str = "CARPPRAX.0
     return path
 
 
-def test_request_in_the_folder_opens_a_new_patient(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:
-    desktop = opened()
-    path = lay(folders, encode(MUSTERMANN, "iso8859-1"))
-
+def test_request_selects_the_patient_sent_and_nobody_else(
+    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
+) -> None:
+    desktop, request = opened(), encode(MUSTERMANN, "iso8859-1")
+    patients, screen = desktop.library.patients, desktop.controller.patients.screen
+    path = lay(folders, request)
     qtbot.waitUntil(lambda: not path.exists(), timeout=20_000)
-    shown = desktop.library.patients.get(selected(desktop))
+    shown = patients.get(selected(desktop))
     assert (shown.name, shown.record_number, shown.sex) == ("Jürg Mustermann", "12345", "male")
     assert shown.birth_day == date(1945, 10, 30)
 
-
-def test_request_while_another_is_searched_selects_the_one_sent(
-    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
-) -> None:
-    desktop = opened()
-    desktop.library.patients.add(Patient("Heron 17", "left"))
+    patients.add(Patient("Heron 17", "left"))
     desktop.controller.patients.open()
-    desktop.controller.patients.screen.search.setText("Heron")
-    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1")))
+    screen.search.setText("Heron")
+    desktop.on_second_instance(lay(folders, request))
+    assert selected(desktop) == shown.patient_id, "while another one is searched"
 
-    assert desktop.library.patients.get(selected(desktop)).record_number == "12345"
+    screen.new_patient()
+    path = lay(folders, request, "from the menu.txt")
+    desktop.on_second_instance(path)
+    assert path.exists(), "it waits while a form is filled in"
+    screen.form.close_dialog()
+    qtbot.waitUntil(lambda: not path.exists(), timeout=20_000)
 
-
-def test_request_of_an_archived_patient_selects_nobody_else(
-    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
-) -> None:
-    desktop = opened()
-    patients = desktop.library.patients
-    patients.add(Patient("Linden 42", "left"))
-    patients.archive(patients.add(Patient("Heron 17", "left", record_number="12345")))
-    desktop.on_second_instance(lay(folders, encode(MUSTERMANN, "iso8859-1")))
-
-    screen = desktop.controller.patients.screen
-    assert not screen.list.currentIndex().isValid()
+    patients.archive(shown.patient_id)
+    desktop.on_second_instance(lay(folders, request))
+    assert not screen.list.currentIndex().isValid(), "an archived one selects nobody else"
     assert not screen.archive_button.isHidden()
 
 
@@ -109,20 +103,6 @@ def test_request_that_cannot_be_deleted_is_read_once(
 
     assert len(faults) == 1
     assert len(desktop.library.patients.search("12345")) == 1
-
-
-def test_request_named_while_a_form_is_filled_in_waits_for_it(
-    qtbot: QtBot, opened: Open, folders: PracticeSystemSettings
-) -> None:
-    desktop = opened()
-    form = desktop.controller.patients.screen
-    form.new_patient()
-    path = lay(folders, encode(MUSTERMANN, "iso8859-1"), "from the menu.txt")
-    desktop.on_second_instance(path)
-
-    assert path.exists()
-    form.form.close_dialog()
-    qtbot.waitUntil(lambda: not path.exists(), timeout=20_000)
 
 
 def test_request_unreadable_is_set_aside_and_said(qtbot: QtBot, opened: Open, folders: PracticeSystemSettings) -> None:

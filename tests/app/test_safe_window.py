@@ -160,7 +160,7 @@ def test_deleting_patient_keeps_other_patient_open(qtbot: QtBot, opened: Open, m
     assert journey.current.patient.patient_id == heron
 
 
-def test_window_with_pin_shows_nothing_before_it(
+def test_window_with_pin_shows_nothing_before_it_and_locks_but_while_it_records(
     qtbot: QtBot, opened: Open, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Pin(data).set("4821")
@@ -190,16 +190,8 @@ def test_window_with_pin_shows_nothing_before_it(
     done = [entry.action for entry in read_log(desktop.library.store)]
     assert done[-3:] == ["locked", "pin_refused", "unlocked"]
 
-
-def test_lock_by_key_and_timeout_never_during_recording(
-    qtbot: QtBot, opened: Open, data: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    Pin(data).set("4821")
-    desktop = opened()
-    locking, journey = desktop.data_protection.locking, desktop.controller
-    locking.lock_screen.pin_entered.emit("4821")
-    assert not locking.is_locked
     assert 0 < locking.idle_timer.remainingTime() <= 11 * 60_000  # a coarse clock
+    journey = desktop.controller
     journey.sessions.open(linden(desktop))
     journey.sessions.screen.rename_button.click()
     assert journey.sessions.screen.exercise_dialog.isVisible()

@@ -216,9 +216,3 @@ def test_settings_from_json_former_names_give_the_same_settings() -> None:
             section[old_name] = section.pop(name)
     found = settings_from_json(json.dumps({"settings": stored}))
     assert found == (TrackSettings(detection=DetectionSettings(max_blobs=7)), ())
-
-
-def test_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
-    desktop = open_desktop(is_demo=True)
-    desktop.preferences.screen.form["patient_sound"].buttons()[1].click()
-    assert not (tmp_path / "settings").exists()
