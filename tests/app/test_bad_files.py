@@ -26,6 +26,7 @@ from carpus.core.records import new_sessions, session_list
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.new_sessions import recover_sessions
+from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import open_store as opened_store
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
@@ -188,6 +189,18 @@ def test_damaged_register_does_not_keep_program_from_starting(kept_folder: Path,
         assert patient.session_count == 1
         assert len(house.index.patient_sessions(patient.patient_id)) == 1
     assert start_program(tmp_path) == (patients, [])
+
+
+def test_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
+    with opened_store(tmp_path) as house:
+        key = house.patients.add(Patient("Linden 42", "right", name="Wilhelmina Featherstone", note="a note"))
+        for number in range(50):
+            house.patients.change(
+                Patient("Linden 42", "right", name=f"Wilhelmina Featherstone {number}", patient_id=key)
+            )
+        house.patients.change(Patient("Linden 42", "right", patient_id=key))
+        found = [path.name for path in tmp_path.iterdir() if path.is_file() and b"Featherstone" in path.read_bytes()]
+        assert found == []
 
 
 def test_damaged_file_is_read_again_when_it_has_changed(tmp_path: Path) -> None:
