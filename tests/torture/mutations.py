@@ -20,18 +20,14 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.model.hand.protocols import WRIST6
 from carpus.core.model.types import Frame
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.values import Patient
 from carpus.core.session.values import EncodedImages
-from carpus.core.session.writer import SessionWriter
 from tests.capture.oni_samples import CAMERA as SMALL
 from tests.capture.oni_samples import color_picture, depth_picture
-from tests.records.samples import open_store
+from tests.records.samples import LINDEN, T0, measure, open_store
 from tests.session.samples import (
-    CAMERA,
-    CREATED,
     add_pictures,
+    begin_session,
     compute_time,
-    make_calibration,
     make_frame,
     make_header,
     write_journal,
@@ -62,12 +58,8 @@ def sound(kind: str, folder: Path) -> Path:
         journal.close()
         return journal.path
     if kind == "session":
-        header = make_header(session_id=uuid.UUID(int=77))
-        writer = SessionWriter.create(folder / "s.h5", header, CAMERA, make_calibration())
-        for row in range(30):
-            writer.append(make_frame(row))
-        writer.add_event(compute_time(3), "note", "a note")
-        writer.close()
+        with begin_session(folder / "s.h5", make_header(session_id=uuid.UUID(int=77)), 30) as writer:
+            writer.add_event(compute_time(3), "note", "a note")
         add_pictures(writer.path, [EncodedImages(b"c" * 90, b"d" * 30)] * 30)
         return writer.path
     if kind == "tum":
@@ -83,12 +75,7 @@ def sound(kind: str, folder: Path) -> Path:
         (folder / "settings.toml").write_text("\n".join((*lines, "[live]", "max_waiting_rows = 900", "")))
         return folder / "settings.toml"
     with open_store(folder / "data") as house:
-        key = house.patients.add(Patient("Linden 42", "left", name="A Name", note="a note"))
-        path = house.index.new_path(key, "Linden 42", "wrist flexion", "left", CREATED)
-        with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
-            writer.append(make_frame(0))
-            writer.append(make_frame(1))
-        house.index.add(path, key)
+        measure(house, house.patients.add(LINDEN), T0)
     return folder / "data" / STORE_FILE
 
 
