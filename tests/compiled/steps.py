@@ -28,13 +28,16 @@ from carpus.core.tracking.association.association import (
 )
 from carpus.core.tracking.digits.digit_association import DigitAssignment, DigitScene, measurements_from_assignment
 from carpus.core.tracking.filter.digit_filter import (
+    _DIRECTION,
+    LIMIT_GATE_SD,
+    LIMIT_SD_RAD,
     OBSERVED,
     digit_sigma_weights,
     draw_sigma_points,
     linearise_digits,
+    slot_limits_rad,
 )
 from carpus.core.tracking.filter.hand_geometry import palm_calibration
-from carpus.core.tracking.filter.joint_limits import _DIRECTION, LIMIT_GATE_SD, LIMIT_SD_RAD, slot_limits_rad
 from carpus.core.tracking.filter.mixture_filter import (
     Linearisation,
     ModeMixture,

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from carpus.core.model.hand.anatomy import HARD_LIMITS_RAD
-from carpus.core.tracking.filter.digit_filter import ANATOMY
-from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
-from carpus.core.tracking.filter.joint_limits import (
+from carpus.core.tracking.filter.digit_filter import (
+    ANATOMY,
     LIMIT_SD_RAD,
     apply_soft_limits,
 )
+from carpus.core.tracking.filter.hand_geometry import N_DIGITS, N_SLOTS
 from carpus.core.tracking.filter.mixture_filter import ModeMixture
 
 SIZE = ANATOMY.stop

@@ -58,22 +58,8 @@ def log_odds(
     """Return the odds of every marker and blob, and whether the blob's depth is used; (M, D) each.
 
     The log of (12) for the marker over (12) for clutter, ``LOG_IMPOSSIBLE`` outside the gate. A depth that is not used
-    is that of something before or behind the disc.
-
-    Parameters
-    ----------
-    predicted : (M, 3)
-        Predicted pixel u, v and depth in metres.
-    covariance : (M, 3, 3)
-        Covariance of that.
-    measured : (D, 3)
-        Blobs; depth NaN where unknown (then only the pixel counts, and clutter's density is 1/RES).
-    noise_variance : (D, 3)
-        Measurement noise of the blobs.
-    resolution_px2 : float
-        Area of the image, RES.
-    settings : AssociationSettings
-        Priors and gate.
+    is that of something before or behind the disc. Markers and blobs as in
+    :func:`core.compiled.association.compute_log_odds`; ``resolution_px2`` area of the image, RES.
     """
     densities = log_densities(resolution_px2, settings)
     return compute_log_odds(

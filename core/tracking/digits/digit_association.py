@@ -20,7 +20,15 @@ from carpus.core.compiled.digits import place_digits
 from carpus.core.model.types import FloatArray
 from carpus.core.tracking.association import association
 from carpus.core.tracking.association.association import is_jointly_compatible
-from carpus.core.tracking.filter.digit_filter import ANATOMY, DIGIT_SIZE, OBSERVED, DigitLinearisation, DigitView
+from carpus.core.tracking.filter.digit_filter import (
+    ANATOMY,
+    DIGIT_SIZE,
+    LIMIT_SD_RAD,
+    OBSERVED,
+    DigitLinearisation,
+    DigitView,
+    compute_limit_excess,
+)
 from carpus.core.tracking.filter.hand_geometry import (
     CROWDED_PX,
     CROWDED_RADII,
@@ -29,7 +37,6 @@ from carpus.core.tracking.filter.hand_geometry import (
     N_SLOTS,
     SLOT_MOVES_DISC,
 )
-from carpus.core.tracking.filter.joint_limits import LIMIT_SD_RAD, compute_limit_excess
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, Update, partial_update_shares, update_mixture
 from carpus.core.tracking.filter.predicted_measurement import CENTRE_SHIFT_SHARE, MIN_WHOLE_AREA_SHARE, Measurements
 from carpus.core.tracking.filter.settings import TrackerSettings

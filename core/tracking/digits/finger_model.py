@@ -17,11 +17,15 @@ from carpus.core.model.types import FloatArray
 from carpus.core.tracking.filter.digit_filter import (
     DIGIT_SIZE,
     JOINTS,
+    MID_RANGE_RAD,
     OBSERVED,
+    RANGE_SD_RAD,
     RATES,
     DigitBase,
     DigitMotion,
     Forgetting,
+    apply_soft_limits,
+    compute_limit_excess,
 )
 from carpus.core.tracking.filter.hand_geometry import (
     CROWDED_PX,
@@ -31,12 +35,6 @@ from carpus.core.tracking.filter.hand_geometry import (
     PalmGeometry,
     is_crowded,
     palm_calibration,
-)
-from carpus.core.tracking.filter.joint_limits import (
-    MID_RANGE_RAD,
-    RANGE_SD_RAD,
-    apply_soft_limits,
-    compute_limit_excess,
 )
 from carpus.core.tracking.filter.mixture_filter import ModeMixture, mode_transition_matrix
 from carpus.core.tracking.filter.motion import MODE_DWELL_S, RATE_MEMORY_S, REFERENCE_DT_S

@@ -154,26 +154,10 @@ def update_mixture(
     partial: FloatArray | None = None,
     tested: int | None = None,
 ) -> Update:
-    """Update every chain and mode by measurements (Kalman).
+    """Update every chain and mode by measurements (Kalman), as :func:`core.compiled.mixture.correct_mixture` says.
 
-    Computed in units of the noise, since pixels and metres differ by orders of magnitude.
-
-    Parameters
-    ----------
-    mixture : ModeMixture
-        The prediction.
-    linearised : Linearisation
-        h, linearised about the prediction.
-    measured : (C, m)
-        NaN where there is nothing.
-    variance : (C, m)
-        Variance of the measurements' own errors.
-    shared : (C, m, m), optional
-        Covariance common to several measurements.
-    partial : (n,), optional
-        Shares of :func:`partial_update_shares`.
-    tested : int, optional
-        The first so many components, or all, are tested by themselves.
+    Computed in units of the noise, since pixels and metres differ by orders of magnitude. ``partial`` are the shares of
+    :func:`partial_update_shares`; all components are ``tested`` by themselves, or the first so many.
     """
     tested = measured.shape[1] if tested is None else tested
     found = compiled.correct_mixture(mixture, linearised, measured, variance, shared, partial, tested)

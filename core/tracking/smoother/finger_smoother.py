@@ -129,14 +129,14 @@ class FingerTrajectory:
         next_frame = self.filtered_again[frame + 1]
         assert next_frame is not None
         forgetting = self.model.compute_forgetting(filtered.mean, next_frame.unseen_s, dt_s)
-        forward, noise = self.model.motion.compute_transition(dt_s, next_frame.scale, forgetting)
+        forward, noise = self.model.motion.compute_transition(dt_s, (next_frame.scale**2)[:, None], forgetting)
         moving = np.arange(RATES.stop)
         for chain in np.flatnonzero(next_frame.is_restarted):
             # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
             forward[chain][moving] = 0.0
-            noise[chain][moving, moving] = 1.0
+            noise[chain, 0][moving, moving] = 1.0
         difference = later.mean - (forward @ filtered.mean[..., None])[..., 0]
-        return SmootherTransition(filtered.covariance, forward, noise, difference, later.covariance)
+        return SmootherTransition(filtered.covariance, forward, noise[:, 0], difference, later.covariance)
 
     def apply_correction(self, filtered: Gaussian, correction: FloatArray, covariance: FloatArray) -> Gaussian:
         return Gaussian(filtered.mean + correction, covariance)
