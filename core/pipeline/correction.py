@@ -20,7 +20,7 @@ import numpy as np
 
 from carpus.core.model.errors import CarpusFault, MarkersNotCorrectable, OutputExists, ReanalysisFailed
 from carpus.core.model.phrase import phrase
-from carpus.core.model.types import BoolArray, Detections, FloatArray, KinematicState, TrackedFrame
+from carpus.core.model.types import Detections, FloatArray, KinematicState, TrackedFrame
 from carpus.core.pipeline.stored_settings import settings_from_json
 from carpus.core.pipeline.track import (
     Progress,
@@ -174,7 +174,7 @@ class _Retracker:
             self._tracker.drop_track(float(session.timestamp_s[correction.row]))
             self._tracker.pop_steps()  # collected already
             if not session.header.protocol.has_fingers:
-                blobs = blobs.subset(_match_places(blobs, named))
+                blobs = blobs.subset(np.array([_is_near(named, pixel) for pixel in blobs.pixel], dtype=np.bool_))
         for name, place in correction.places.items():
             marker = markers.index(name)
             if np.isfinite(before[marker]).all() and not _is_near(named, before[marker]):
@@ -204,15 +204,6 @@ def with_added_detections(blobs: Detections, places: FloatArray) -> Detections:
 
 def _is_near(pixels: FloatArray, place: FloatArray) -> bool:
     return bool(len(pixels)) and float(np.linalg.norm(pixels - place, axis=1).min()) <= SAME_BLOB_PX
-
-
-def _match_places(blobs: Detections, places: FloatArray) -> BoolArray:
-    """Return a mask (D,) of the detections that are at one of the places (P, 2)."""
-    if not len(blobs) or not len(places):
-        return np.zeros(len(blobs), dtype=np.bool_)
-    between = np.linalg.norm(blobs.pixel[:, None] - places[None], axis=-1)
-    kept: BoolArray = between.min(axis=1) <= SAME_BLOB_PX
-    return kept
 
 
 POLL_S = 0.2

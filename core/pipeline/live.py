@@ -26,8 +26,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import NamedTuple, Protocol, Self
 
-import numpy as np
-
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.model.errors import CameraLost, CameraReturned
@@ -209,7 +207,6 @@ class LiveSession:
         self._history: deque[TrackedFrame] = deque(maxlen=math.ceil(1.25 * fps * HISTORY_S))
         self._events: deque[LiveEvent] = deque(maxlen=1000)
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
-        self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
         self._captured = self._tracked = self._missing = 0
         self._pipeline: Pipeline | None = None
         self._listener: Listener | None = None
@@ -252,7 +249,8 @@ class LiveSession:
         with suppress(Exception):  # reported by the recorder
             if self.is_recording:
                 self.stop_recording()
-        self.end_tracking()
+        with self._lock:
+            self._pipeline = None
         self._backlog.close()
         if self._tracking_thread.is_alive():
             self._tracking_thread.join()
@@ -279,11 +277,6 @@ class LiveSession:
             self._history.clear()
             self._view_mailbox.clear()
             self._backlog.clear()
-
-    def end_tracking(self) -> None:
-        """Track no further frames; the preview goes on."""
-        with self._lock:
-            self._pipeline = None
 
     def set_listener(self, listener: Listener | None) -> None:
         """Set who receives every tracked frame and event; a listener that raises is removed."""
@@ -406,31 +399,22 @@ class LiveSession:
 
     def counters(self) -> LiveCounters:
         with self._lock:
-            latencies = np.array(self._latencies)
             arrivals = [at_s for at_s in self._arrivals if at_s > time.monotonic() - 2.0]
             recording = self._recording
             captured, tracked, missing = self._captured, self._tracked, self._missing
-        p50, p95 = np.percentile(latencies, (50.0, 95.0)) if len(latencies) else (math.nan, math.nan)
         span_s = arrivals[-1] - arrivals[0] if len(arrivals) > 1 else 0.0
         fps = (len(arrivals) - 1) / span_s if span_s > 0.0 else 0.0
-        rows, pictures = (recording.row_recorder, recording.frame_recorder) if recording else (None, None)
         free = recording.disk_free_bytes if recording else read_free_bytes(self._settings.folder)
-        frame_bytes = ROW_BYTES + (FRAME_BYTES if pictures else 0)
+        frame_bytes = ROW_BYTES + (FRAME_BYTES if recording and recording.frame_recorder else 0)
         return LiveCounters(
             captured=captured,
             tracked=tracked,
             dropped=self._backlog.dropped_count,
             missing=missing,
             fps=fps,
-            latency_p50_ms=1e3 * float(p50),
-            latency_p95_ms=1e3 * float(p95),
             frames_waiting=len(self._backlog),
             tracking_lag_s=self._backlog.lag_s,
-            rows_written=rows.write_count if rows else 0,
-            frames_written=pictures.write_count if pictures else 0,
             is_recording=recording is not None,
-            is_paused=recording is not None and recording.is_paused,
-            disk_free_bytes=free,
             disk_minutes_left=math.nan if free is None else free / (frame_bytes * (fps or 30.0)) / 60.0,
         )
 
@@ -494,7 +478,6 @@ class LiveSession:
                 return
             self._history.append(tracked)
             self._tracked += 1
-            self._latencies.append(time.monotonic() - captured.captured_at_s)
             self._view_mailbox.post(TrackedView(frame, tracked, captured.captured_at_s))
         if captured.recording is not None:
             captured.recording.row_recorder.submit(tracked)

@@ -84,7 +84,7 @@ StartMode = Literal["key", "countdown", "still"]
 
 @dataclass(frozen=True, slots=True)
 class LiveCounters:
-    """Current state of the live session; unknown values are NaN or None.
+    """Current state of the live session; unknown values are NaN.
 
     Attributes
     ----------
@@ -94,14 +94,10 @@ class LiveCounters:
         Frames without room before the tracker; frames that never came from the source.
     fps : float
         Over the last two seconds.
-    latency_p50_ms, latency_p95_ms : float
-        From arrival to tracking result, over the last frames.
     frames_waiting, tracking_lag_s
         Frames waiting for the tracker, and the time it needs for them.
-    rows_written, frames_written : int
-        Of the running recording.
-    disk_free_bytes, disk_minutes_left
-        Free space, and the time until it is used up.
+    disk_minutes_left : float
+        Time until the free space is used up.
     """
 
     captured: int
@@ -109,13 +105,7 @@ class LiveCounters:
     dropped: int
     missing: int
     fps: float
-    latency_p50_ms: float
-    latency_p95_ms: float
     frames_waiting: int
     tracking_lag_s: float
-    rows_written: int
-    frames_written: int
     is_recording: bool
-    is_paused: bool
-    disk_free_bytes: int | None
     disk_minutes_left: float

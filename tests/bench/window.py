@@ -160,7 +160,7 @@ def measure(seconds: float, folder: Path, *, whole_hand: bool) -> tuple[Run, dic
             "captured": after.captured - before.captured,
             "tracked": after.tracked - before.tracked,
             "dropped": after.dropped - before.dropped,
-            "rows": after.rows_written,
+            "rows": feed._recording.row_recorder.write_count,
         }
         live.current_chart().mouse_target.removeEventFilter(watcher)
         weigh.stop()

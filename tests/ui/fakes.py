@@ -224,15 +224,9 @@ class FakeFeed:
             dropped=0,
             missing=0,
             fps=30.0,
-            latency_p50_ms=6.0,
-            latency_p95_ms=11.0,
             frames_waiting=0,
             tracking_lag_s=0.0,
-            rows_written=self.place,
-            frames_written=0,
             is_recording=self.is_recording,
-            is_paused=self.is_paused,
-            disk_free_bytes=2 * 10**10,
             disk_minutes_left=212.0,
         )
 
