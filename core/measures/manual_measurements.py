@@ -161,6 +161,7 @@ MEASURES: tuple[ManualMeasure, ...] = (
     _score_measure(KAPANDJI, phrase("Kapandji score"), 10.0, "more"),
     *_FINGERS,
 )
+_BY_ID = {measure.id: measure for measure in MEASURES}
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,10 +213,7 @@ QUESTIONNAIRES: Mapping[str, Questionnaire] = {
 
 def find_manual_measure(measure_id: str) -> ManualMeasure:
     """Return a measure by its id. Raises KeyError for an unknown one."""
-    for measure in MEASURES:
-        if measure.id == measure_id:
-            return measure
-    raise KeyError(measure_id)
+    return _BY_ID[measure_id]
 
 
 ChangeVerdict = Literal["improved", "worse", "within_error", "not_judged"]

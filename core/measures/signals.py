@@ -162,12 +162,6 @@ MAX_ZYX_FLEXION_RAD = math.radians(75.0)
 """Above it deviation and pronosupination are ill-conditioned: noise gain 1/cos above 3.9."""
 
 
-def view_tilt_rad(rotation_w2_w0: FloatArray, rotation_w0_cam: FloatArray) -> FloatArray:
-    """Return the angle (N,) between the normal of the back of the hand and the direction to the camera."""
-    normal_cam = rotation_w2_w0[..., :, 2] @ rotation_w0_cam.T
-    return np.asarray(np.arccos(np.clip(-normal_cam[..., 2], -1.0, 1.0)), dtype=np.float64)
-
-
 def valid_view(
     status: NDArray[np.integer], palm_measured_px: FloatArray, rotation_w2_w0: FloatArray, rotation_w0_cam: FloatArray
 ) -> BoolArray:
@@ -183,8 +177,9 @@ def valid_view(
         (N, 3, 3) of the hand, (3, 3) of the neutral pose in the camera
     """
     seen = np.isfinite(palm_measured_px).all(axis=2).sum(axis=1) >= MIN_PALM_MARKERS
+    normal_cam = rotation_w2_w0[..., :, 2] @ rotation_w0_cam.T
     with np.errstate(invalid="ignore"):
-        facing = view_tilt_rad(rotation_w2_w0, rotation_w0_cam) <= MAX_VIEW_TILT_RAD
+        facing = np.arccos(np.clip(-normal_cam[..., 2], -1.0, 1.0)) <= MAX_VIEW_TILT_RAD
     return np.asarray((status == TrackStatus.TRACKED) & seen & facing, dtype=np.bool_)
 
 
@@ -201,20 +196,12 @@ def exclude_view_edges(is_visible: BoolArray, time_s: FloatArray) -> BoolArray:
     return out
 
 
-def valid_angle(is_visible: BoolArray, angle_rad: FloatArray, angle_sd_rad: FloatArray) -> BoolArray:
-    """Select the visible frames (N,) in which one angle is known with a small standard deviation."""
-    with np.errstate(invalid="ignore"):
-        return np.asarray(is_visible & np.isfinite(angle_rad) & (angle_sd_rad <= MAX_ANGLE_SD_RAD), dtype=np.bool_)
-
-
 def valid_wrist_angles(is_visible: BoolArray, angles_rad: FloatArray, angles_sd_rad: FloatArray) -> BoolArray:
-    """Select valid samples (N, 3) of deviation, flexion and pronosupination.
+    """Select visible samples (N, 3) of deviation, flexion and pronosupination with a small standard deviation.
 
     Deviation and pronosupination need a flexion of at most 75 degrees.
     """
-    valid = np.column_stack([valid_angle(is_visible, angles_rad[:, k], angles_sd_rad[:, k]) for k in range(3)])
     with np.errstate(invalid="ignore"):
-        conditioned = np.abs(angles_rad[:, 1]) <= MAX_ZYX_FLEXION_RAD
-    valid[:, 0] &= conditioned
-    valid[:, 2] &= conditioned
-    return valid
+        valid = is_visible[:, None] & np.isfinite(angles_rad) & (angles_sd_rad <= MAX_ANGLE_SD_RAD)
+        valid[:, [0, 2]] &= (np.abs(angles_rad[:, 1]) <= MAX_ZYX_FLEXION_RAD)[:, None]
+    return np.asarray(valid, dtype=np.bool_)

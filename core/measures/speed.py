@@ -52,7 +52,8 @@ def sparc(speed: FloatArray, rate_hz: float, min_peak: float = 0.0) -> float:
     >>> round(sparc(np.exp(-5 * t**2), 100.0), 5)
     -1.41403
     """
-    if not _is_measurable(speed, min_peak):
+    peak = float(np.abs(speed).max()) if len(speed) >= MIN_SAMPLES else math.nan  # NaN with a gap
+    if not (peak > 0.0 and peak >= min_peak):
         return math.nan
     length = 2 ** (math.ceil(math.log2(len(speed))) + _PAD_LEVEL)
     spectrum = np.abs(np.fft.rfft(speed, length))
@@ -85,13 +86,6 @@ def count_speed_peaks(speed: FloatArray, rate_hz: float, min_rise: float, min_di
             last_counted = top
         last_top = top
     return count
-
-
-def _is_measurable(speed: FloatArray, min_peak: float) -> bool:
-    if len(speed) < MIN_SAMPLES or not np.isfinite(speed).all():
-        return False
-    peak = float(np.abs(speed).max())
-    return peak > 0.0 and peak >= min_peak
 
 
 ONSET_SPEED_SHARE = 0.05

@@ -159,22 +159,19 @@ def flexion_joints(finger: int, names: Sequence[str]) -> tuple[tuple[str, ...], 
     return ((*measured, end), False) if end in names else (measured, True)
 
 
-def finger_measure_keys(finger: int) -> tuple[MeasureKey, ...]:
-    """Return a finger's TAM and the arcs of its joints; of finger 0 the TAM of all."""
-    if finger == 0:
-        return tuple((f"TAM{k}", "arc") for k in FINGERS)
-    joints, _ = flexion_joints(finger, joint_angle_names(True))
-    return ((f"TAM{finger}", "arc"), *((name, "arc") for name in joints))
+def progress_keys(choice: str) -> tuple[MeasureKey, ...]:
+    """Return the arcs that are followed: every ``tam`` or ``spread``, the thumb's ``lift``, or a finger by its number.
 
-
-def abduction_measure_keys() -> tuple[MeasureKey, ...]:
-    """Return the arcs of finger abduction, thumb to little finger."""
-    return (("CMC1_extension", "arc"), *((f"MCP{k}_abduction", "arc") for k in FINGERS[1:]))
-
-
-def thumb_measure_keys() -> tuple[MeasureKey, ...]:
-    """Return the measures of the thumb base: palmar abduction and extension first, then flexion."""
-    names = ("CMC1_abduction", "CMC1_extension", *flexion_joints(1, joint_angle_names(True))[0])
+    Of the thumb palmar abduction and extension come first, of a finger its TAM. Empty for the wrist.
+    """
+    names: tuple[str, ...] = ()
+    if choice == "tam":
+        names = tuple(f"TAM{finger}" for finger in FINGERS)
+    elif choice == "spread":
+        names = ("CMC1_extension", *(f"MCP{finger}_abduction" for finger in FINGERS[1:]))
+    elif choice:
+        first = ("CMC1_abduction", "CMC1_extension") if choice == "lift" else (f"TAM{choice}",)
+        names = (*first, *flexion_joints(1 if choice == "lift" else int(choice), joint_angle_names(True))[0])
     return tuple((name, "arc") for name in names)
 
 

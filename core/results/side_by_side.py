@@ -45,7 +45,6 @@ class SessionPair:
 
     @property
     def is_comparable(self) -> bool:
-        """True if the two compare at all."""
         return not self.reasons
 
     @property
@@ -149,57 +148,31 @@ def align_playback(
     The first recording runs at its own speed, the second so that both are at the same part of their repetition. Both
     reach the first repetition together; after the last common one, and without repetitions, each runs at its own speed.
     """
-    knots = _TimelineBuilder()
-    pairs = list(zip(_repetition_edges(first, durations_s[0]), _repetition_edges(second, durations_s[1])))  # noqa: B905
+    rows = [(0.0, 0.0, 0.0)]
+
+    def advance(by_s: float, to_first_s: float, to_second_s: float) -> None:
+        """Add a knot; time never goes back."""
+        player_s, first_s, second_s = rows[-1]
+        if player_s + by_s > player_s:
+            rows.append((player_s + by_s, max(to_first_s, first_s), max(to_second_s, second_s)))
+
     starts: list[float] = []
-    if pairs:
-        (start_first, _), (start_second, _) = pairs[0]
-        lead_s = max(start_first, start_second)
-        for wait_s in sorted({lead_s - start_first, lead_s - start_second}):
-            knots.add(wait_s, max(0.0, wait_s - lead_s + start_first), max(0.0, wait_s - lead_s + start_second))
-        knots.add(lead_s, start_first, start_second)
-    for number, (mine, other) in enumerate(pairs):
-        starts.append(knots.player_s)
-        knots.advance(mine[1] - mine[0] or other[1] - other[0], mine[1], other[1])
-        if number + 1 < len(pairs):
-            (next_first, _), (next_second, _) = pairs[number + 1]
-            knots.advance_both(next_first, next_second, together=True)
-    knots.advance_both(*durations_s, together=False)
-    return knots.build(tuple(starts))
-
-
-class _TimelineBuilder:
-    """Builder of the knots; time never goes back."""
-
-    def __init__(self) -> None:
-        self._rows: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)]
-
-    @property
-    def player_s(self) -> float:
-        return self._rows[-1][0]
-
-    def add(self, player_s: float, first_s: float, second_s: float) -> None:
-        last = self._rows[-1]
-        row = (max(player_s, last[0]), max(first_s, last[1]), max(second_s, last[2]))
-        if row[0] > last[0]:
-            self._rows.append(row)
-
-    def advance(self, by_s: float, first_s: float, second_s: float) -> None:
-        self.add(self.player_s + by_s, first_s, second_s)
-
-    def advance_both(self, first_s: float, second_s: float, *, together: bool) -> None:
-        """Advance to a time in each: arriving together, or each at its own speed."""
-        _, at_first, at_second = self._rows[-1]
-        ways = (max(first_s - at_first, 0.0), max(second_s - at_second, 0.0))
-        if not together:
-            self.advance(min(ways), at_first + min(ways), at_second + min(ways))
-            self.advance(max(ways) - min(ways), at_first + ways[0], at_second + ways[1])
-        else:
-            self.advance(max(ways), at_first + ways[0], at_second + ways[1])
-
-    def build(self, starts_s: tuple[float, ...]) -> PlaybackTimeline:
-        rows = np.array(self._rows if len(self._rows) > 1 else [*self._rows, (1e-3, 0.0, 0.0)])
-        return PlaybackTimeline(rows[:, 0], rows[:, 1], rows[:, 2], starts_s)
+    pairs = zip(_repetition_edges(first, durations_s[0]), _repetition_edges(second, durations_s[1]))  # noqa: B905
+    for mine, other in pairs:
+        ways_s = (max(mine[0] - rows[-1][1], 0.0), max(other[0] - rows[-1][2], 0.0))
+        if starts:  # together over a pause
+            advance(max(ways_s), mine[0], other[0])
+        else:  # whoever has the shorter way to the first one waits
+            advance(max(ways_s) - min(ways_s), mine[0] - min(ways_s), other[0] - min(ways_s))
+            advance(min(ways_s), mine[0], other[0])
+        starts.append(rows[-1][0])
+        advance(mine[1] - mine[0] or other[1] - other[0], mine[1], other[1])
+    _, first_s, second_s = rows[-1]
+    shorter_s, longer_s = sorted((max(durations_s[0] - first_s, 0.0), max(durations_s[1] - second_s, 0.0)))
+    advance(shorter_s, first_s + shorter_s, second_s + shorter_s)
+    advance(longer_s - shorter_s, *durations_s)
+    knots = np.array(rows if len(rows) > 1 else [*rows, (1e-3, 0.0, 0.0)])
+    return PlaybackTimeline(knots[:, 0], knots[:, 1], knots[:, 2], tuple(starts))
 
 
 def _repetition_edges(repetitions: Sequence[RepetitionResult], duration_s: float) -> list[tuple[float, float]]:

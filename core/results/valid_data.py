@@ -112,19 +112,12 @@ def palm_in_view(session: Session) -> BoolArray:
     return exclude_view_edges(view, session.timestamp_s - session.timestamp_s[:1])
 
 
-def wrist_signals(session: Session, is_in_view: BoolArray) -> list[Signal]:
-    """Return the three clinical wrist angles with their sd, with gaps where the palm was not in view."""
-    angles_rad, sds_rad = clinical_angles_rad(session), motion_estimate(session).angles_sd_rad
-    valid = valid_wrist_angles(is_in_view, angles_rad, sds_rad)
-    time_s = session.timestamp_s - session.timestamp_s[:1]
-    return [resample_evenly(time_s, np.column_stack((angles_rad[:, k], sds_rad[:, k])), valid[:, k]) for k in range(3)]
-
-
 @dataclass(frozen=True, slots=True)
 class MeasurableSession:
     """Session with what may be measured of it.
 
-    ``is_in_view`` (N,): frames that show the palm well; ``signals``: the wrist angles; ``tracks``: the joints.
+    ``is_in_view`` (N,): frames that show the palm well; ``signals``: the three clinical wrist angles with their sd, and
+    gaps where the palm was not in view; ``tracks``: the joints.
     """
 
     session: Session
@@ -137,5 +130,8 @@ class MeasurableSession:
     def from_session(cls, session: Session, joints: Collection[str] | None = None) -> MeasurableSession:
         """Apply the validity rules; ``joints`` limits the joints."""
         view = palm_in_view(session)
-        exercise = get_exercise(session.header.exercise)
-        return cls(session, exercise, view, wrist_signals(session, view), joint_tracks(session, joints))
+        angles_rad, sds_rad = clinical_angles_rad(session), motion_estimate(session).angles_sd_rad
+        valid, time_s = valid_wrist_angles(view, angles_rad, sds_rad), session.timestamp_s - session.timestamp_s[:1]
+        both = np.stack((angles_rad, sds_rad), axis=-1)
+        signals = [resample_evenly(time_s, both[:, k], valid[:, k]) for k in range(3)]
+        return cls(session, get_exercise(session.header.exercise), view, signals, joint_tracks(session, joints))

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.results.motion_curves import visible_angle_deg
-from carpus.core.results.ranges import finger_measure_keys
+from carpus.core.results.ranges import progress_keys
 from carpus.core.results.repetition_rows import RepetitionChoices, RepetitionResult
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import (
@@ -148,7 +148,7 @@ def test_compare_pair_fingers() -> None:
         hand_session(share=0.6, session_id="left", side="left", hides_beyond_deg=200.0),
     )
     first, second = figures_once(other), figures_once(stored)
-    both = compare_pair(first, second, finger_measure_keys(0))
+    both = compare_pair(first, second, progress_keys("tam"))
     assert [one.after.subject for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
     assert both.main_comparison.is_beyond_error
     assert both.main_comparison.difference_deg < 0.0
@@ -162,7 +162,7 @@ def test_compare_pair_hidden_end_judged_only_if_certain() -> None:
     hidden = figures_once(hand_session(hides_beyond_deg=62.0))
     small = figures_once(hand_session(share=0.3, session_id="left", side="left", hides_beyond_deg=200.0))
     for pair in ((hidden, small), (small, hidden)):
-        both = compare_pair(*pair, finger_measure_keys(3))
+        both = compare_pair(*pair, progress_keys("3"))
         middle = next(one for one in both.ranges if one.after.subject == "PIP3_flexion")
         sides = {one.is_lower_bound for one in (middle.before, middle.after)}
         assert sides == {True, False}

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from pytestqt.qtbot import QtBot
 
+from carpus.core.results.ranges import progress_keys
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import SessionPair, compare_pair
@@ -14,7 +15,6 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.table import cell_text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.comparison.screen import ComparisonScreen, difference_table, facts_words, headline, warning_words
-from carpus.ui.words.fingers import progress_keys
 from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import hand_session

@@ -11,13 +11,14 @@ import pytest
 
 from carpus.core.results.measure import wrist_angle_index
 from carpus.core.results.progress import compare_ranges, compute_progress
+from carpus.core.results.ranges import progress_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import axis_top_deg, panel_keys
 from carpus.ui.kit import numbers
 from carpus.ui.kit.table import Cell, cell_text
 from carpus.ui.report.session_page import build_session_report
 from carpus.ui.words.finger_angles import FingerAngle, format_spread
-from carpus.ui.words.fingers import finger_table, progress_choices, progress_keys, range_cell
+from carpus.ui.words.fingers import finger_table, progress_choices, range_cell
 from carpus.ui.words.progress import headline
 from carpus.ui.words.session import hand_summary
 from carpus.ui.words.terms import LEGAL_SENTENCE

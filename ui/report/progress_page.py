@@ -14,6 +14,7 @@ from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.platform.provenance import version_with_revision
 from carpus.core.records.values import Patient
 from carpus.core.results.progress import Progress, compute_progress, find_other_hand
+from carpus.core.results.ranges import progress_keys
 from carpus.core.results.report_form import DEFAULT_FORM, ReportForm
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import ProgressChart
@@ -34,7 +35,7 @@ from carpus.ui.report.page import (
     section_title,
     table,
 )
-from carpus.ui.words.fingers import progress_choices, progress_keys
+from carpus.ui.words.fingers import progress_choices
 from carpus.ui.words.manual_values import (
     change_words,
     day_words,

@@ -6,10 +6,9 @@ import math
 
 from carpus.core.model.phrase import Phrase, phrase
 from carpus.core.model.rounding import format_rounded
-from carpus.core.results.measure import Measure, MeasureKey, is_total_active_motion, negate_measure
+from carpus.core.results.measure import Measure, is_total_active_motion, negate_measure
 from carpus.core.results.norms import SHARE_OF_OTHER, compute_total_shares, grade_share, total_norm
 from carpus.core.results.progress import compare_ranges
-from carpus.core.results.ranges import abduction_measure_keys, finger_measure_keys, thumb_measure_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.kit import numbers
 from carpus.ui.kit.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -286,15 +285,6 @@ def progress_choices(results: SessionResults) -> list[tuple[str, str]]:
     if main_kind(results) == "middle":
         kinds = [*kinds[1:], kinds[0]]
     return [*kinds, ("", tr("Wrist"))]
-
-
-def progress_keys(choice: str) -> tuple[MeasureKey, ...]:
-    """Return the measures of a choice of :func:`progress_choices`."""
-    if choice == "spread":
-        return abduction_measure_keys()
-    if choice == "lift":
-        return thumb_measure_keys()
-    return finger_measure_keys(0 if choice == "tam" else int(choice)) if choice else ()
 
 
 def main_result_words(results: SessionResults) -> str:

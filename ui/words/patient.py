@@ -31,20 +31,16 @@ def patient_words(exercise_id: str, scene: GuideScene, audience: Audience) -> Pa
         return PatientWords(tr("Show the dots") if child else tr("Show the blue dots to the camera"), tr("One moment."))
     if scene.phase == "paused":
         return PatientWords("" if child else tr("Let your hand rest."), tr("A short break."))
-    if scene.phase == "done":
-        return PatientWords("" if child else tr("Let your hand rest."), tr("Well done."))
-    if scene.phase == "rest":
+    if scene.phase in ("done", "rest"):
         return PatientWords("" if child else tr("Let your hand rest."), tr("Well done."))
     if scene.countdown_s:
         return PatientWords(tr("Hold still") if child else tr("Let your hand lie still"), f"{scene.countdown_s} …")
     if scene.phase == "free":
         return PatientWords(_task_words(exercise_id, 1, child), tr("Just try it.") if scene.is_trial else "")
-    back = _return_words(exercise_id, child)
-    if scene.phase in ("back", "hidden"):
-        return PatientWords(
-            _task_words(exercise_id, scene.direction, child) if child else back, tr("Back") if child else tr("And back")
-        )
     task = _task_words(exercise_id, scene.direction, child)
+    if scene.phase in ("back", "hidden"):
+        back = task if child else translate_phrase(get_exercise(exercise_id).return_cue)
+        return PatientWords(back, tr("Back") if child else tr("And back"))
     if scene.phase == "there":
         return PatientWords(task, tr("There!") if child else tr("There. Hold still."))
     if scene.is_trial:
@@ -78,12 +74,6 @@ def task_words(exercise_id: str) -> str:
 
 def _task_words(exercise_id: str, aim: int, child: bool) -> str:
     known = find_exercise(exercise_id)
-    return (
-        ""
-        if known is None
-        else translate_phrase((known.child_cues if child else known.adult_cues)[0 if aim > 0 else 1])
-    )
-
-
-def _return_words(exercise_id: str, child: bool) -> str:
-    return tr("Back") if child else translate_phrase(get_exercise(exercise_id).return_cue)
+    if known is None:
+        return ""
+    return translate_phrase((known.child_cues if child else known.adult_cues)[0 if aim > 0 else 1])

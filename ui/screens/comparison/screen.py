@@ -17,6 +17,7 @@ from carpus.core.model.types import ByteImage, FloatArray
 from carpus.core.results.measure import Measure, MeasureKey, negate_measure, wrist_angle_index
 from carpus.core.results.motion_curves import visible_angle_deg
 from carpus.core.results.progress import Comparison, Progress, ProgressPoint
+from carpus.core.results.ranges import progress_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.core.results.side_by_side import PlaybackTimeline, SessionPair, align_playback, compare_pair, order_pair
 from carpus.core.results.valid_data import motion_estimate
@@ -37,7 +38,7 @@ from carpus.ui.picture.session_frames import SessionFrameView
 from carpus.ui.picture.view import HAND_AREA_FACTOR, PALM_AREA_FACTOR, FrameView
 from carpus.ui.words import terms
 from carpus.ui.words.finger_angles import FINGERS, FingerAngle, find_finger_angle, format_spread
-from carpus.ui.words.fingers import is_thumb_exercise, main_kind, progress_choices, progress_keys
+from carpus.ui.words.fingers import is_thumb_exercise, main_kind, progress_choices
 from carpus.ui.words.progress import (
     comparison_name,
     difference_words,

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from carpus.core.measures.manual_measurements import ManualValue, current_values
 from carpus.core.results.progress import Comparison, Progress, compute_progress, find_other_hand
+from carpus.core.results.ranges import progress_keys
 from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.progress import ProgressChart
 from carpus.ui.kit import numbers
@@ -35,7 +36,7 @@ from carpus.ui.kit.table import VERDICT_TOKENS
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.words import terms
-from carpus.ui.words.fingers import progress_choices, progress_keys
+from carpus.ui.words.fingers import progress_choices
 from carpus.ui.words.manual_values import day_words, find_changes, list_other_values
 from carpus.ui.words.progress import (
     change_line,
