@@ -15,11 +15,6 @@ from carpus.ui.words.terms import marker_title
 
 MARKER_COLOR = "#2B4FB0"
 MARKER_MM, HAND_MM = 12.0, 190.0
-_LABELS = {
-    "WRIST": (1, 0.35), "CMC1": (-1, 0.05), "MCP2": (-1, -0.28), "MCP3": (1, -0.52), "MCP4": (1, -0.52),
-    "MCP5": (1, -0.28),
-}  # fmt: skip
-"""Side of a label, and its height from the middle of the hand in halves of the drawing."""
 _CAPTIONS = {
     "en": ("70 to 80 cm,", "at least 60 cm", "camera, straight down", "safety cord", "forearm rests, still",
            "plain table, nothing blue"),
@@ -51,15 +46,11 @@ def paint_marker_map(painter: QPainter, box: QRectF, side: Side, *, whole_hand: 
         size = radius * (0.8 if name.startswith(("TIP", "DIP")) else 1.0)
         painter.drawEllipse(at, size, size)
     named = ("WRIST", "CMC1", "MCP5", "PIP5", "DIP5", "TIP5", "MCP1", "IP1", "TIP1") if whole_hand else PALM_MARKERS
-    sign = 1.0 if side == "right" else -1.0
-    text = font(14 * unit, SEMIBOLD)
+    sign, text = 1 if side == "right" else -1, font(14 * unit, SEMIBOLD)
     rows: dict[int, list[tuple[float, str, QPointF]]] = {-1: [], 1: []}
     for name in named:
-        at = to.map(QPointF(*MARKER_POSITIONS[name]))
-        where = _LABELS.get(name, (1 if name[-1] == "5" else -1, 0.0))[0]
-        if whole_hand and name == "CMC1":
-            where = -1
-        rows[int(where * sign)].append((at.y(), marker_title(name), at))
+        at, is_outer = to.map(QPointF(*MARKER_POSITIONS[name])), name[-1] == "5" or name in ("WRIST", "MCP3", "MCP4")
+        rows[sign if is_outer else -sign].append((at.y(), marker_title(name), at))
     for where, names in rows.items():
         _paint_names(painter, box, where, sorted(names, key=lambda one: one[0]), text, unit)
 

@@ -11,8 +11,8 @@ from typing import Literal
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF
-from PySide6.QtWidgets import QGraphicsRectItem, QVBoxLayout
+from PySide6.QtGui import QFontMetricsF, QPen
+from PySide6.QtWidgets import QGraphicsLineItem, QGraphicsRectItem, QVBoxLayout
 
 from carpus.core.model.rounding import format_rounded
 from carpus.core.model.types import FloatArray, Side
@@ -254,19 +254,18 @@ class PathsChart(Chart):
             for row in known[np.unique(evenly)].tolist():
                 for token, axis in zip(AXIS_TOKENS, self._axes[row].T, strict=True):
                     ends = np.array((place_mm[row], place_mm[row] + length_mm * axis))
-                    pen = plot.pen(token)
-                    pen.setColor(look.color(token, AXIS_ALPHA))
-                    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
-                    x, y = plot.to_item_x(ends[:, across]), plot.to_item_y(ends[:, up])
-                    plot.add_to_layer(pg.PlotCurveItem(x, y, pen=pen), CURVES)
+                    (x0, x1), (y0, y1) = plot.to_item_x(ends[:, across]), plot.to_item_y(ends[:, up])
+                    line = plot.add_to_layer(QGraphicsLineItem(x0, y0, x1, y1), CURVES)
+                    line.setPen(QPen(look.color(token, AXIS_ALPHA), look.unit, c=Qt.PenCapStyle.RoundCap))
         for path in self._paths:
             x, y = path.position_mm[:, across], path.position_mm[:, up]
             is_known = np.isfinite(x) & np.isfinite(y)
-            for is_seen, dash in ((True, ()), (False, (2.2, 2.2))):
+            for is_seen, dash in ((True, ()), (False, (3.2, 1.2))):
                 shown = np.zeros(len(x), dtype=np.int32)
                 shown[:-1] = is_known[:-1] & is_known[1:] & (path.is_visible[1:] == is_seen)
-                if shown.any():
-                    plot.add_line(x, y, path.token, 0.5 * look.line_width / look.unit, dash, shown)
+                if len(rows := np.flatnonzero(shown | np.roll(shown, 1))):
+                    width = 0.5 * look.line_width / look.unit
+                    plot.add_line(x[rows], y[rows], path.token, width, dash, shown[rows])
 
     def _add_names(self, plot: Plot, occupied_box: QRectF) -> None:
         """Write the names at the outermost free points of their paths; omit one without room."""
