@@ -118,8 +118,12 @@ def test_openni2_camera_hanging_is_restarted_and_close_ends_reconnecting(
     assert steps_s[away] > 2 * PERIOD_S
     assert frames[away + 1].dropped_before == round(steps_s[away] / (1 / 30)) - 1
     blow(camera, signal.SIGKILL)
+    rest = camera.frames()
+    next(rest)
+    assert [type(fault) for fault in notices[3:]] == [CameraLost, CameraReturned], "lost before it was read"
+    blow(camera, signal.SIGKILL)
     camera._plan = CameraConfig(uri="1d27/0601@9/9")
-    reader = threading.Thread(target=lambda: list(camera.frames()))
+    reader = threading.Thread(target=lambda: list(rest))
     reader.start()
     camera.close()
     reader.join(10.0)

@@ -225,6 +225,7 @@ def test_realsense_doctor_checks_driver_and_settings(monkeypatch: pytest.MonkeyP
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr("importlib.metadata.version", missing)
+    assert realsense.KIND.check_driver(True, False) is None, "no obstacle, and nothing to tick"
     found = realsense.KIND.check_driver(True, True)
     assert found is not None
     assert (found.state, found.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")
