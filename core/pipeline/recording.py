@@ -26,19 +26,15 @@ class Sink(Protocol):
     @property
     def path(self) -> Path:
         """Path of the finished file."""
-        ...
 
     def close(self) -> None:
         """Finish the file."""
-        ...
 
     def abandon(self) -> None:
         """Stop after a fault; stored data are kept."""
-        ...
 
     def discard(self) -> None:
         """Remove the file: nothing was recorded."""
-        ...
 
 
 SinkT = TypeVar("SinkT", bound=Sink)
@@ -169,7 +165,6 @@ class SessionSink(Sink, Protocol):
 
     def prepare(self) -> None:
         """Write all rows to the disk and into the session file; no more come."""
-        ...
 
 
 class QueuedEvent(NamedTuple):
