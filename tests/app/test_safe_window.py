@@ -85,8 +85,16 @@ def test_session_is_looked_at_given_away_archived_and_deleted_from_list(qtbot: Q
     journey, sheet = desktop.controller, desktop.data_protection.erasing.dialog
     rows = journey.sessions.screen.list.session_model
     journey.sessions.open(linden(desktop))
-    chosen = journey.sessions.screen.current_line()
-    journey.sessions.screen.open_current()
+    screen = journey.sessions.screen
+    chosen = screen.current_line()
+    screen.exclude_button.click()
+    screen.exclude_dialog.reason_field.setText("splint on")
+    qtbot.keyClick(screen.exclude_dialog.reason_field, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: "excluded: splint on" in screen.remark_text.text())
+    assert screen.current_line().entry == chosen.entry
+    screen.exclude_button.click()
+    qtbot.waitUntil(lambda: "splint on" not in screen.remark_text.text())
+    qtbot.keyClick(screen.list, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
     last = read_log(desktop.library.store)[-1]
     assert (last.action, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.entry.session_id))

@@ -29,16 +29,13 @@ OPENED = r'(?:way|navigator)\.(?:open_screen|open_overlay|switch_screen|open_und
 NAMED = re.compile(OPENED + r'|\b(?:place|screen_name) (?:==|!=) "(\w+)"')
 LED = re.compile(OPENED)
 
+SOME = ("settings", "sessions", "live", "review")
 Looks = dict[tuple[str, str], set[tuple[int, str]]]
 
 
-def seen(desktop: Desktop, *places: str) -> dict[str, Looks]:
-    """Size and ground of each text of each screen, or of some, brought to the front; those that are not made yet are
-    made."""
-    way = desktop.controller.navigator
-    return {
-        place: looks(desktop, way.flow(place).screen) for place in places or sorted({*way.factories} - {"patients"})
-    }
+def seen(desktop: Desktop) -> dict[str, Looks]:
+    """Size and ground of each text of some screens, brought to the front; those that are not made yet are made."""
+    return {place: looks(desktop, desktop.controller.navigator.flow(place).screen) for place in SOME}
 
 
 def looks(desktop: Desktop, screen: QWidget) -> Looks:
@@ -101,7 +98,6 @@ def test_start_makes_no_screen_but_first_and_loads_others_in_windows_thread(
 
 
 CHOSEN = {"theme": "dark", "text_scale": 1.25, "research": True, "start": "still", "patient_sound": True}
-SOME = ("settings", "sessions", "live")
 
 
 def choose(desktop: Desktop, **chosen: Any) -> None:
@@ -132,7 +128,7 @@ def all_made(desktop: Desktop) -> None:
 def test_preferences_reach_screens_created_later(open_desktop: Callable[..., Desktop]) -> None:
     early, late = open_desktop(), open_desktop()
     all_made(early)
-    before = seen(early, *SOME)
+    before = seen(early)
     for desktop in (early, late):
         choose(desktop, **CHOSEN)
     after = seen(early)

@@ -13,7 +13,7 @@ from tests.ui.fakes import entered
 
 
 class FakeStoredSessions(SessionStore):
-    """A list of sessions that remembers what was done with it."""
+    """A list of sessions that nobody measured."""
 
     def __init__(self, count: int = 6) -> None:
         start = datetime(2026, 11, 20, 11, 30)
@@ -22,7 +22,6 @@ class FakeStoredSessions(SessionStore):
             for number in range(count)
             for name, when in [(f"s{number}", start - timedelta(days=3 * number))]
         ]
-        self.done: list[tuple[str, ...]] = []
 
     def list_sessions(self, patient_id: str) -> list[SessionLine]:
         return list(self.all)
@@ -39,26 +38,5 @@ class FakeStoredSessions(SessionStore):
             counted_words=words,
         )
 
-    def target_patients(self, patient_id: str) -> list[tuple[str, str]]:
-        return [("heron", "Heron 17"), ("alder", "Alder 51")]
-
     def count_archived(self, patient_id: str) -> int:
         return 0
-
-    def _change(self, session_id: str, **values: object) -> None:
-        self.all = [replace(one, **values) if one.entry.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
-
-    def exclude(self, session_id: str, reason: str) -> None:
-        self.done.append(("aside", session_id, reason))
-        self._change(session_id, exclusion_reason=reason)
-
-    def move(self, session_id: str, patient_id: str) -> None:
-        self.done.append(("move", session_id, patient_id))
-        self.all = [one for one in self.all if one.entry.session_id != session_id]
-
-    def rename_exercise(self, session_id: str, exercise: str) -> None:
-        self.done.append(("rename", session_id, exercise))
-        self.all = [
-            replace(one, entry=replace(one.entry, exercise=exercise)) if one.entry.session_id == session_id else one
-            for one in self.all
-        ]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
-from datetime import date, datetime, timedelta
+from datetime import date, timedelta
 
 import numpy as np
 import pytest
@@ -14,15 +15,6 @@ from pytestqt.qtbot import QtBot
 from carpus.core.model.errors import PatientListBusy, PseudonymTaken
 from carpus.core.model.names import MAX_NAME_CHARACTERS
 from carpus.core.records.values import Patient
-from carpus.ui.kit.numbers import (
-    format_clock,
-    format_clock_tenths,
-    format_days_ago,
-    format_degrees,
-    format_ordinal,
-    format_sd,
-    format_with_sd,
-)
 from carpus.ui.kit.text import Text
 from carpus.ui.kit.theme import Theme
 from carpus.ui.picture.photo import crop_to_markers
@@ -30,7 +22,6 @@ from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.patient_store import MAX_LISTED_PATIENTS
 from carpus.ui.screens.patients.screen import PatientsScreen
 from carpus.ui.shell.current_selection import NameDisplay
-from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore
 from tests.ui.geometry import shown_texts
@@ -81,40 +72,31 @@ def test_patient_list_search_matches_pseudonym_real_name_and_exercise(
 ROSA = {"name": "Rosa Muster", "birth_day": date(1981, 3, 12), "record_number": "PR-4711", "sex": "female"}
 
 
-@pytest.mark.parametrize("is_hidden", [False, True])
-@pytest.mark.parametrize(
-    ("typed", "found_by", "hidden_words"),
-    [
-        ("linden", "", ""),
-        ("mus", "", "found by name"),
-        ("4711", "No. PR-4711", "found by record number"),
-        ("12.3.1981", "born 12 Mar 1981", "found by birth date"),
-        ("fracture 12.3.81", "born 12 Mar 1981", "found by birth date"),
-    ],
-)
-def test_patient_search_states_the_matching_field_only(
-    qtbot: QtBot,
-    screen: PatientsScreen,
-    store: FakeStore,
-    typed: str,
-    found_by: str,
-    hidden_words: str,
-    is_hidden: bool,
-) -> None:
+def test_patient_search_states_the_matching_field_only(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     store.rows[5] = replace(store.rows[5], **ROSA)
-    screen._names.set_hidden(is_hidden)
-    screen.refresh("linden")
-    qtbot.keyClicks(screen.search, typed)
-    model, words = screen.list.patient_model, hidden_words if is_hidden else found_by
-    row = model.find_row("linden")
-    screen.list.setCurrentIndex(model.index(row))
-    assert model.row_cells(model.row(row))[2].split(" · ") == [*([words] if words else []), "Wrist fracture, plate"]
-    shown = " ".join([*shown_texts(screen.card), str(model.data(model.index(row)))])
-    assert words in shown
-    for text in ("Rosa Muster", "born 12 Mar 1981", "PR-4711", "female"):
-        assert (text in shown) is not is_hidden, text
-    screen.search.clear()
-    qtbot.keyClicks(screen.search, "13.3.1981")
+    model = screen.list.patient_model
+    for (typed, found_by, hidden_words), is_hidden in itertools.product(
+        (
+            ("linden", "", ""),
+            ("mus", "", "found by name"),
+            ("4711", "No. PR-4711", "found by record number"),
+            ("12.3.1981", "born 12 Mar 1981", "found by birth date"),
+            ("fracture 12.3.81", "born 12 Mar 1981", "found by birth date"),
+        ),
+        (False, True),
+    ):
+        screen._names.set_hidden(is_hidden)
+        screen.refresh("linden")
+        screen.search.setText(typed)
+        words, row = hidden_words if is_hidden else found_by, model.find_row("linden")
+        screen.list.setCurrentIndex(model.index(row))
+        about = model.row_cells(model.row(row))[2].split(" · ")
+        assert about == [*([words] if words else []), "Wrist fracture, plate"], typed
+        shown = " ".join([*shown_texts(screen.card), str(model.data(model.index(row)))])
+        assert words in shown
+        for text in ("Rosa Muster", "born 12 Mar 1981", "PR-4711", "female"):
+            assert (text in shown) is not is_hidden, (typed, text)
+    screen.search.setText("13.3.1981")
     assert model.rowCount() == 0
 
 
@@ -139,23 +121,6 @@ def test_patient_form_name_in_use_is_refused(qtbot: QtBot, screen: PatientsScree
     screen.form.fields["name"].setText("R. M.")
     qtbot.keyClick(screen.form.fields["pseudonym"], Qt.Key.Key_Return)
     assert (store.added[0].pseudonym, store.added[0].name) == ("Heron 18", "R. M.")
-
-
-def test_patient_list_shows_the_legal_notice_word_for_word(screen: PatientsScreen) -> None:
-    assert LEGAL_SENTENCE in [label.text() for label in screen.findChildren(Text)]
-
-
-def test_numbers_have_no_sign_and_show_unknown_values() -> None:
-    assert format_degrees(-41.6) == "42°"
-    assert format_degrees(float("nan")) == "–"
-    assert format_sd(0.2) == "±\N{NO-BREAK SPACE}1°"
-    assert format_sd(float("nan")) == ""
-    assert format_with_sd(57.2, 2.4) == "57°\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}2°"
-    assert format_with_sd(57.2, float("nan")) == "57°"
-    assert (format_clock(84.9), format_clock(3661), format_clock_tenths(20.65)) == ("01:24", "1:01:01", "00:20.6")
-    said = [format_ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)]
-    assert said == ["1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "112th"]
-    assert format_days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"
 
 
 # --- the sheet of a patient's facts ----------------------------------------------------------------------

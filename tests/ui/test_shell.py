@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from PySide6.QtCore import Qt, QThread
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.model.fault_text import MessageText
 from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.session_page import build_session_report
 from carpus.ui.screens.report.screen import ReportScreen
 from carpus.ui.screens.settings.screen import Preferences, SettingsScreen
 from carpus.ui.shell.flow import Navigator
 from carpus.ui.shell.main_window import MainWindow
 from carpus.ui.shell.messages import Answer, MessageDialog
 from tests.ui.conftest import Show
-from tests.ui.fakes import FakeSessions
+from tests.ui.fakes import home_report
 
 Settings = Callable[..., tuple[SettingsScreen, list[Preferences]]]
 WORDS = MessageText("The camera was unplugged.", "Your data are safe.", "Plug the camera in again.")
@@ -124,7 +122,7 @@ def test_report_is_saved_in_background_and_replaces_only_when_asked(
     qtbot: QtBot, theme: Theme, show: Show[ReportScreen], tmp_path: Path
 ) -> None:
     screen = show(ReportScreen(theme, Background()))
-    screen.show_report(build_session_report(FakeSessions().session("session-7")), str(tmp_path))
+    screen.show_report(home_report(), str(tmp_path))
     assert not screen.preview.grab().isNull()
     with qtbot.waitSignal(screen.saved) as saved:
         screen.save(str(tmp_path / "one"))
@@ -137,23 +135,3 @@ def test_report_is_saved_in_background_and_replaces_only_when_asked(
     with qtbot.waitSignal(screen.saved):
         screen.save(str(path), may_replace=True)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["one.pdf"]
-
-
-def test_background_work_answers_in_the_window_s_thread(qtbot: QtBot) -> None:
-    background = Background()
-    window, seen = QThread.currentThread(), []
-    worker: list[int] = []
-
-    def work() -> int:
-        worker.append(threading.get_ident())
-        return 7
-
-    background.run(work, lambda value: seen.append((value, QThread.currentThread() is window)), seen.append)
-    background.run(lambda: 1 / 0, seen.append, lambda fault: seen.append(type(fault)))
-    qtbot.waitUntil(lambda: len(seen) == 2)
-    assert seen == [(7, True), ZeroDivisionError]
-    assert worker[0] != threading.get_ident()
-    assert not background.is_busy
-
-
-# --- the mark of the keyboard, also when what holds its control moves ------------------------------------

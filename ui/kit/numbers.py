@@ -44,7 +44,11 @@ def format_degree_range(low_deg: float, high_deg: float) -> str:
 
 
 def format_with_sd(value_deg: float, sd_deg: float) -> str:
-    """Return ``57° ± 2°`` with no-break spaces; the angle alone if the SD is unknown."""
+    """Return ``57° ± 2°`` with no-break spaces; the angle alone if the SD is unknown.
+
+    >>> format_with_sd(57.2, 2.4), format_with_sd(57.2, 0.2), format_with_sd(57.2, float("nan"))
+    ('57°\\xa0±\\xa02°', '57°\\xa0±\\xa01°', '57°')
+    """
     if not math.isfinite(value_deg) or not math.isfinite(sd_deg):
         return format_degrees(value_deg)
     return f"{format_degrees(value_deg)}{NARROW_GAP}{format_sd(sd_deg)}"
@@ -115,7 +119,11 @@ def format_clock(seconds: float) -> str:
 
 
 def format_clock_tenths(seconds: float) -> str:
-    """Return ``00:20.6``."""
+    """Return ``00:20.6``.
+
+    >>> format_clock_tenths(20.65)
+    '00:20.6'
+    """
     tenths = int(max(0.0, seconds) * 10 + 1e-6)
     return f"{format_clock(tenths // 10)}{language.locale().decimalPoint()}{tenths % 10}"
 
@@ -228,7 +236,11 @@ def parse_date(text: str, latest: date | None = None) -> date | None:
 
 
 def format_ordinal(number: int) -> str:
-    """Return ``6th``; other languages translate the whole pattern."""
+    """Return ``6th``; other languages translate the whole pattern.
+
+    >>> [format_ordinal(number) for number in (1, 2, 3, 4, 11, 12, 13, 21, 112)]
+    ['1st', '2nd', '3rd', '4th', '11th', '12th', '13th', '21st', '112th']
+    """
     last = 0 if number % 100 in (11, 12, 13) else number % 10
     pattern = {1: tr("{number}st"), 2: tr("{number}nd"), 3: tr("{number}rd")}.get(last, tr("{number}th"))
     return pattern.format(number=number)
