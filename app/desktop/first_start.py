@@ -46,16 +46,8 @@ class TourController(QObject):
         self._read_bubbles: frozenset[Bubble] = frozenset()
         self._is_report_saved = False
         self._views: dict[str, BubbleView] = {}
-        views: dict[str, Callable[[], BubbleView]] = {
-            "patients": lambda: controller.patients.screen.card.bubble,
-            "camera": lambda: controller.camera.screen.bubble,
-            "markers": lambda: controller.markers.screen.bubble,
-            "live": lambda: controller.live.screen.bubble,
-            "review": lambda: controller.review.screen.bubble,
-            "report": lambda: controller.report.screen.bubble,
-        }
-        for place, view in views.items():
-            controller.navigator.run_when_created(place, partial(self._connect_view, place, view))
+        for place in ("patients", "camera", "markers", "live", "review", "report"):
+            controller.navigator.run_when_created(place, partial(self._connect_view, place))
         self._clock = QTimer(self)
         self._clock.setInterval(REFRESH_EVERY_MS)
         self._clock.timeout.connect(self.refresh)
@@ -68,8 +60,9 @@ class TourController(QObject):
         )
         controller.handle_escape = self._handle_escape
 
-    def _connect_view(self, place: str, view: Callable[[], BubbleView]) -> None:
-        shown = self._views[place] = view()
+    def _connect_view(self, place: str) -> None:
+        (shown,) = self._controller.navigator.flows[place].screen.findChildren(BubbleView)
+        self._views[place] = shown
         shown.next_button.clicked.connect(self.advance)
         shown.leave_button.clicked.connect(self.cancel)
 
@@ -183,13 +176,8 @@ class WelcomeController(QObject):
         library: DataFolder,
     ) -> None:
         super().__init__(controller)
-        self._controller, self._theme, self._tour, self._preferences, self._library = (
-            controller,
-            theme,
-            tour,
-            preferences,
-            library,
-        )
+        self._controller, self._theme, self._tour = controller, theme, tour
+        self._preferences, self._library = preferences, library
         self._background = Background()
         self._handle_escape_before = controller.handle_escape
         self.panel: WelcomePanel | None = None

@@ -290,22 +290,20 @@ class AccessLogger(QObject):
 
     def __init__(self, controller: MainController, library: DataFolder) -> None:
         super().__init__(controller)
-        self._find_compared_ids: Callable[[], Sequence[str]] = lambda: sorted(controller.comparison.screen.session_ids)
-        self._current, self._library = controller.current, library
+        self._controller, self._library = controller, library
         self._last_access = ("", "")
         self.log_failed.connect(controller.messages.show_fault)
         library.on_fault = self.log_failed.emit
         controller.navigator.screen_changed.connect(self._log_access)
 
     def _log_access(self, place: str) -> None:
-        patient = self._current.patient
-        if place == "review" and self._is_new_access(place, self._current.session_id):
-            self._library.audit_log.log_session("opened", self._current.session_id)
-        elif place == "comparison":
-            for session_id in (
-                self._find_compared_ids() if self._is_new_access(place, " ".join(self._find_compared_ids())) else ()
-            ):
-                self._library.audit_log.log_session("opened", session_id)
+        patient, session_ids = self._controller.current.patient, [self._controller.current.session_id]
+        if place in ("review", "comparison"):
+            if place == "comparison":
+                session_ids = sorted(self._controller.comparison.screen.session_ids)
+            if self._is_new_access(place, " ".join(session_ids)):
+                for session_id in session_ids:
+                    self._library.audit_log.log_session("opened", session_id)
         elif place == "progress" and patient is not None and self._is_new_access(place, patient.patient_id):
             self._library.audit_log.log_patient("opened", patient.patient_id)
         elif place == "patients":

@@ -27,28 +27,22 @@ class MaintenanceCameras:
         self._last_serial = ""
 
     def name(self) -> str | None:
-        """Return the camera's name, empty if the system does not tell it; None without a camera."""
         return find_camera_name(self._settings.camera.uri)
 
     def folder(self) -> Path:
-        """Return the folder where calibrations and checks are stored."""
         return self._settings.data_folder
 
     def open_for_calibration(self) -> LiveSession:
-        """Open the camera without its stored calibration."""
         uri = self._settings.camera.uri
         return start_live_session(lambda notice: with_given_name(open_camera(uri, notice=notice), self.folder()))
 
     def open_for_check(self) -> LiveSession:
-        """Open the camera with its stored calibration, as for a session."""
         return start_live_session(lambda notice: open_chosen_camera(self._settings, notice)[1])
 
     def set_serial(self, serial: str) -> None:
-        """Store the serial number of the camera that was opened."""
         self._last_serial = serial or self._last_serial
 
     def save_name(self, kind: str, name: str) -> str:
-        """Save a name for cameras without a serial number, and return it as saved."""
         return save_camera_name(self.folder(), kind, name)
 
     def status(self, now: datetime) -> CheckStatus:

@@ -63,11 +63,6 @@ def save_requested_patient(patients: Patients, request: GdtRequest) -> Patient:
     return patients.get(patients.save(stated)) if stated != patient else patient
 
 
-def set_aside(path: Path) -> None:
-    """Rename a file that cannot be read, so that it is not read again. Raises OSError."""
-    path.replace(path.with_name(path.name + UNREADABLE_SUFFIX))
-
-
 POLL_MS = 2000
 """A folder in the network gives no notice of new files, so it is looked at."""
 SETTLED_S = 10.0
@@ -138,7 +133,7 @@ class PracticeSystemController(QObject):
         except CarpusFault as fault:
             self._controller.messages.show_fault(fault)
             if isinstance(fault, GdtUnreadable | NameUnsuited):
-                self._remove_file(path, set_aside)
+                self._remove_file(path, lambda file: file.replace(file.with_name(file.name + UNREADABLE_SUFFIX)))
 
     def open_file(self, path: Path) -> None:
         """Open the patient of a GDT file that a practice system names when it starts Carpus."""

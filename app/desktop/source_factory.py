@@ -42,13 +42,8 @@ class SourceFactory:
         speed: float = 1.0,
         render_practice_start: Callable[[SessionSetup], tuple[FrameSource, float] | None] = lambda _: None,
     ) -> None:
-        self._settings, self._new_sessions, self._render_practice, self._speed = (
-            settings,
-            new_sessions,
-            render_practice,
-            speed,
-        )
-        self._render_practice_start = render_practice_start
+        self._settings, self._new_sessions, self._speed = settings, new_sessions, speed
+        self._render_practice, self._render_practice_start = render_practice, render_practice_start
         self.is_streaming: Callable[[], bool] = lambda: settings.stream.on
         """Returns whether live values are sent to other programs; asked when tracking starts."""
 

@@ -45,12 +45,8 @@ class TopBarController(QObject):
 
     def refresh(self) -> None:
         """Update everything for the present screen."""
-        bar, row, set_up, place = (
-            self._shell.top_bar,
-            self._current.patient,
-            self._current.set_up,
-            self._navigator.screen_name,
-        )
+        bar, place = self._shell.top_bar, self._navigator.screen_name
+        row, set_up = self._current.patient, self._current.set_up
         side = set_up.side if set_up is not None else row.side if row is not None else ""
         words = [terms.hand_name(side)] if side else []
         if place == "live" and set_up is not None:

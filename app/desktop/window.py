@@ -30,14 +30,6 @@ from carpus.ui.shell.recent_locations import RecentLocations, encode_geometry, r
 COLLECT_INTERVAL_MS = 100
 
 
-def collect_due_garbage() -> None:
-    """Collect the oldest generation that is due, as Python's own collector would."""
-    for generation in (2, 1, 0):
-        if gc.get_count()[generation] > gc.get_threshold()[generation]:
-            gc.collect(generation)
-            return
-
-
 class GarbageCollector(QObject):
     """Timer that replaces Python's collector, which runs in whichever thread has just allocated."""
 
@@ -45,8 +37,15 @@ class GarbageCollector(QObject):
         super().__init__(parent)
         gc.disable()
         self._timer = QTimer(self, interval=COLLECT_INTERVAL_MS)
-        self._timer.timeout.connect(collect_due_garbage)
+        self._timer.timeout.connect(self._collect_due)
         self._timer.start()
+
+    def _collect_due(self) -> None:
+        """Collect the oldest generation that is due, as Python's own collector would."""
+        for generation in (2, 1, 0):
+            if gc.get_count()[generation] > gc.get_threshold()[generation]:
+                gc.collect(generation)
+                return
 
 
 PRELOAD_DELAY_MS = 200

@@ -47,7 +47,7 @@ from carpus.ui.kit.background import Background
 from carpus.ui.kit.theme import Theme
 from carpus.ui.screens.correct.flow import CorrectionFlow
 from carpus.ui.screens.review.flow import ReviewFlow
-from carpus.ui.screens.sessions.session_store import SessionStore
+from carpus.ui.screens.sessions.session_list import SessionStore
 from carpus.ui.shell.current_selection import CurrentSelection
 from carpus.ui.shell.flow import ScreenContext
 from carpus.ui.shell.main_window import MainWindow

@@ -25,7 +25,7 @@ from carpus.core.records.session_setup import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import Patient
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.screens.sessions.session_store import SessionStore
+from carpus.ui.screens.sessions.session_list import SessionStore
 from tests.app.test_library import set_up, store
 from tests.commands import Command
 from tests.formats.takes import store_session

@@ -29,8 +29,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.ui.screens.patients.patient_store import PatientStore, _compare_results
-from carpus.ui.screens.sessions.session_list import remark
-from carpus.ui.screens.sessions.session_store import SessionStore
+from carpus.ui.screens.sessions.session_list import SessionStore, remark
 from tests.session.samples import CAMERA, make_calibration, make_frame
 from tests.ui.hand_fakes import FakeHandSessions
 

@@ -94,7 +94,10 @@ def test_session_is_looked_at_given_away_archived_and_deleted_from_list(qtbot: Q
     assert screen.current_line().entry == chosen.entry
     screen.exclude_button.click()
     qtbot.waitUntil(lambda: "splint on" not in screen.remark_text.text())
-    qtbot.keyClick(screen.list, Qt.Key.Key_Return)
+    for is_damaged in (True, False):
+        screen._on_figures(screen._request_number, replace(screen.current_line(), is_damaged=is_damaged))
+        assert journey.place == "sessions", "a damaged file is not opened"
+        qtbot.keyClick(screen.list, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: journey.review.screen.is_loaded)
     last = read_log(desktop.library.store)[-1]
     assert (last.action, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.entry.session_id))

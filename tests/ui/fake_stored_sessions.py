@@ -7,8 +7,7 @@ from datetime import datetime, timedelta
 from pathlib import Path
 
 from carpus.core.records.values import SessionEntry
-from carpus.ui.screens.sessions.session_list import SessionLine
-from carpus.ui.screens.sessions.session_store import SessionStore
+from carpus.ui.screens.sessions.session_list import SessionLine, SessionStore
 from tests.ui.fakes import entered
 
 

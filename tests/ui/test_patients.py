@@ -22,6 +22,7 @@ from carpus.ui.screens.patients.patient_form import PatientForm
 from carpus.ui.screens.patients.patient_store import MAX_LISTED_PATIENTS
 from carpus.ui.screens.patients.screen import PatientsScreen
 from carpus.ui.shell.current_selection import NameDisplay
+from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore
 from tests.ui.geometry import shown_texts
@@ -49,6 +50,7 @@ def test_patient_list_arrow_and_enter_in_search_start_a_session(qtbot: QtBot, sc
     with qtbot.waitSignal(screen.start_requested) as started:
         qtbot.keyClick(screen.search, Qt.Key.Key_Return)
     assert started.args == ["maple"]
+    assert LEGAL_SENTENCE in shown_texts(screen)
 
 
 def test_patient_list_search_matches_pseudonym_real_name_and_exercise(

@@ -85,7 +85,7 @@ def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, th
     )
     for part in (WORDS.data_safety, WORDS.remedy):
         assert part in card.accessibleName()
-    assert card.card.edge == "bad"
+    assert card.card.property("edge") == "bad"
     assert card.answers[-1][0].hasFocus()
     qtbot.keyClick(card, Qt.Key.Key_Escape)
     assert card.isVisible()
@@ -96,7 +96,7 @@ def test_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, th
     qtbot.keyClick(card.answers[-1][0], Qt.Key.Key_Space)
     assert done == ["check", "stop"]
     card.show_words(WORDS, [Answer("Continue", lambda: None)], is_alarm=False)
-    assert card.card.edge == "line"  # good news and questions look like no alarm
+    assert card.card.property("edge") == "line"  # good news and questions look like no alarm
     card.close_dialog()
     answers = [
         Answer("End it", lambda: done.append("end"), is_risky=True),

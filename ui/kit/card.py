@@ -34,10 +34,6 @@ class Surface(QWidget):
         self.setProperty("under", bottom_edge)
         self.set_colors(fill, edge)
 
-    @property
-    def edge(self) -> str:
-        return str(self.property("edge"))
-
     def set_colors(self, fill: str, edge: str = "", edge_px: float = 1.0) -> None:
         for name, value in (("fill", fill), ("edge", edge), ("thick", edge_px > 1.0)):
             self.setProperty(name, value)

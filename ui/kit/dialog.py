@@ -26,10 +26,6 @@ from carpus.ui.kit.theme import Theme
 _open_dialogs: list[Dialog] = []
 
 
-def _move_to_top(sheet: Dialog) -> None:
-    _open_dialogs[:] = [other for other in _open_dialogs if isValid(other) and other is not sheet] + [sheet]
-
-
 def has_open_dialog(window: QWidget) -> bool:
     """Return whether a dialog is open in a window."""
     return any(isValid(sheet) and sheet.isVisible() and sheet.window() is window for sheet in _open_dialogs)
@@ -116,7 +112,7 @@ class Dialog(QWidget):
         self._fit_card()
         self.show()
         self.raise_()
-        _move_to_top(self)
+        _open_dialogs[:] = [other for other in _open_dialogs if isValid(other) and other is not self] + [self]
         application = QCoreApplication.instance()
         assert application is not None
         application.installEventFilter(self)

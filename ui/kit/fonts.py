@@ -23,9 +23,8 @@ def load_fonts() -> tuple[str, ...]:
     Needs a QGuiApplication. Call it again where Qt may have forgotten a font: after many minutes it has drawn single
     sizes in the system's font and kept to that. Registering clears its cache.
     """
-    if _loaded and all(
-        _is_available(size_px, weight) for size_px in _CHECKED_SIZES_PX for weight in (REGULAR, MEDIUM, SEMIBOLD)
-    ):
+    faces = (font(size_px, weight) for size_px in _CHECKED_SIZES_PX for weight in (REGULAR, MEDIUM, SEMIBOLD))
+    if _loaded and all(QFontInfo(face).family() == face.family() for face in faces):
         return tuple(_loaded)
     families: set[str] = set()
     for entry in sorted(files("carpus.resources").joinpath("fonts").iterdir(), key=lambda item: item.name):
@@ -34,11 +33,6 @@ def load_fonts() -> tuple[str, ...]:
             families.update(QFontDatabase.applicationFontFamilies(number))
     _loaded[:] = sorted(families)
     return tuple(_loaded)
-
-
-def _is_available(size_px: int, weight: int) -> bool:
-    asked = font(size_px, weight)
-    return QFontInfo(asked).family() == asked.family()
 
 
 def font(size_px: float, weight: int = REGULAR, *, display: bool | None = None) -> QFont:

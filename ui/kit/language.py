@@ -53,16 +53,11 @@ _THREAD_LANGUAGE = _ThreadLanguage()
 _TRANSLATOR: list[_Translator] = []
 
 
-def load_texts(code: str) -> dict[tuple[str, str], str]:
-    """Load the texts of a language by (context, English text).
+def parse_texts(ts_file: bytes) -> dict[tuple[str, str], str]:
+    """Parse a Qt Linguist file into texts by (context, English text).
 
     Unfinished translations that have a text count.
     """
-    return parse_texts((resources.files("carpus.resources") / "translations" / f"carpus_{code}.ts").read_bytes())
-
-
-def parse_texts(ts_file: bytes) -> dict[tuple[str, str], str]:
-    """Parse a Qt Linguist file into texts by (context, English text)."""
     found = {}
     for context in ElementTree.fromstring(ts_file).iter("context"):
         name = context.findtext("name") or ""
@@ -144,7 +139,8 @@ def _load_language(translator: _Translator, code: str) -> None:
         # A computer may speak one language and name its days in another: nothing is mixed here.
         translator.locales[code] = own if own.dayName(1) == plain.dayName(1) else plain
     if code != "en":
-        translator.lookups[code] = _make_lookup(load_texts(code), code)
+        file = resources.files("carpus.resources") / "translations" / f"carpus_{code}.ts"
+        translator.lookups[code] = _make_lookup(parse_texts(file.read_bytes()), code)
 
 
 def _make_lookup(texts: dict[tuple[str, str], str], code: str) -> TextLookup:

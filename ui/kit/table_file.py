@@ -37,13 +37,6 @@ def user_region() -> str:
     return (language.locale() if system.language() == QLocale.Language.C else system).name()
 
 
-def encode_table(head: Sequence[str], rows: Iterable[Iterable[object]]) -> bytes:
-    """Return a table in the format of the user's region, with no cell that a spreadsheet would evaluate."""
-    text = io.StringIO()
-    write_rows(text, head, (map(str, row) for row in rows), regional_table_form(user_region()))
-    return text.getvalue().encode("utf-8-sig")
-
-
 def save_private(path: Path, content: bytes) -> None:
     """Write a file that only the user can read, replacing an existing one.
 
@@ -55,8 +48,10 @@ def save_private(path: Path, content: bytes) -> None:
 
 
 def save_table(path: Path, head: Sequence[str], rows: Iterable[Iterable[object]]) -> None:
-    """Write a table, like :func:`save_private`."""
-    save_private(path, encode_table(head, rows))
+    """Write a table in the format of the user's region, with no cell that a spreadsheet would evaluate."""
+    text = io.StringIO()
+    write_rows(text, head, (map(str, row) for row in rows), regional_table_form(user_region()))
+    save_private(path, text.getvalue().encode("utf-8-sig"))
 
 
 def companion_path(path: Path, ending: str, *, can_replace: bool) -> Path:

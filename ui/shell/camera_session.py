@@ -27,15 +27,13 @@ MAX_NAME_LENGTH = 40
 class CameraNameDialog(Dialog):
     """Name of a camera that reports no serial number.
 
-    Signals: ``name_entered`` with the name, ``cancelled``.
+    Signals: ``name_entered`` with the name; ``closed`` if none was given.
     """
 
     name_entered = Signal(str)
-    cancelled = Signal()
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 600)
-        self._is_dismissed = False
         self.add_heading()
         self.name_field = QLineEdit(maxLength=MAX_NAME_LENGTH, placeholderText=self.tr("Camera name"))
         self.name_field.setAccessibleName(self.tr("Camera name"))
@@ -45,7 +43,6 @@ class CameraNameDialog(Dialog):
         self.cancel_button = self.add_buttons(self.accept_button, cancel_text=self.tr("Cancel"), gap=None)
         self.name_field.textChanged.connect(lambda text: self.accept_button.setEnabled(bool(text.strip())))
         self.accept_button.clicked.connect(self._accept)
-        self.closed.connect(self._on_closed)
 
     def request_name(self, previous_name: str) -> None:
         """Open with the name of the last such camera, empty if there was none."""
@@ -70,20 +67,16 @@ class CameraNameDialog(Dialog):
         self.open(self.name_field)
 
     def close_silently(self) -> None:
-        """Close without ``cancelled``, when the name is no longer needed."""
-        self._is_dismissed = True
+        """Close without ``closed``, when the name is no longer needed."""
+        self.blockSignals(True)
         self.close_dialog()
-        self._is_dismissed = False
+        self.blockSignals(False)
 
     def _accept(self) -> None:
         name = " ".join(self.name_field.text().split())
         if name:
             self.close_silently()
             self.name_entered.emit(name)
-
-    def _on_closed(self) -> None:
-        if not self._is_dismissed:
-            self.cancelled.emit()
 
 
 log = logging.getLogger(__name__)
@@ -228,7 +221,7 @@ class CameraFlowBase(Flow):
         self.camera_session = CameraSession(self)
         self.camera_session.failed.connect(self._on_failed)
         name_dialog.name_entered.connect(self._on_name_entered)
-        name_dialog.cancelled.connect(self.return_to_start)
+        name_dialog.closed.connect(self.return_to_start)
 
     @property
     def is_busy(self) -> bool:

@@ -21,31 +21,24 @@ class CameraAccess(Protocol):
 
     def name(self) -> str | None:
         """Return the name of the connected camera, empty if unknown, None if there is none."""
-        ...
 
     def open_for_calibration(self) -> LiveSession:
         """Open the camera without its stored calibration."""
-        ...
 
     def open_for_check(self) -> LiveSession:
         """Open the camera as a session would."""
-        ...
 
     def folder(self) -> Path:
         """Return the folder of calibrations and checks."""
-        ...
 
     def set_serial(self, serial: str) -> None:
         """Note the serial number of the connected camera."""
-        ...
 
     def save_name(self, kind: str, name: str) -> str:
         """Save the name of cameras of a type without serial numbers; return it as saved."""
-        ...
 
     def status(self, now: datetime) -> CheckStatus:
         """Read the calibration and check status from the disk."""
-        ...
 
 
 class CameraState(QObject):

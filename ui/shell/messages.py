@@ -251,14 +251,12 @@ def show_files_written(messages: Messages, folder: str, names: Sequence[str]) ->
             tr("Folder: {folder}").format(folder=folder),
             tr("Files: {names}").format(names=format_file_names(names)),
         ),
-        (Answer(tr("Open folder"), lambda: open_folder(folder), "O"), Answer(tr("Continue"), lambda: None)),
+        (
+            Answer(tr("Open folder"), lambda: QDesktopServices.openUrl(QUrl.fromLocalFile(folder)), "O"),
+            Answer(tr("Continue"), lambda: None),
+        ),
         icon="download",
     )
-
-
-def open_folder(folder: str) -> None:
-    """Show a folder in the system's file manager."""
-    QDesktopServices.openUrl(QUrl.fromLocalFile(folder))
 
 
 DIALOG_WIDTH_PX = 720

@@ -24,7 +24,8 @@ class RecentLocations:
 
     def folder(self, kind: FolderKind) -> str:
         """Return the last folder if it exists, else the documents folder, else home."""
-        for candidate in (self.load(kind), documents_folder()):
+        documents = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
+        for candidate in (self.load(kind), documents):
             if candidate and Path(candidate).is_dir():
                 return candidate
         return str(Path.home())
@@ -49,11 +50,6 @@ class RecentLocations:
         with suppress(CarpusFault):
             return read_last_place(self._data_folder, name)
         return ""
-
-
-def documents_folder() -> str:
-    """Return the user's documents folder."""
-    return QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
 
 
 TITLE_BAR_PX = 40

@@ -43,12 +43,8 @@ class SourceOpener(QObject):
         parent: QObject,
     ) -> None:
         super().__init__(parent)
-        self._open_source, self._current, self._shared_background, self._on_close_error = (
-            open_source,
-            current,
-            background,
-            on_close_error,
-        )
+        self._open_source, self._current = open_source, current
+        self._shared_background, self._on_close_error = background, on_close_error
         self._background = Background()  # whatever else is to be done waits for no camera
         self._stop_event = threading.Event()
         self._opened_sources: list[OpenSource] = []

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 
 from carpus.ui.kit import numbers
@@ -210,9 +210,6 @@ class NavigationButton(Button):
     def is_current(self) -> bool:
         return self._number == self._current
 
-    def _face(self) -> QFont:
-        return font(14 * self._theme.text_scale, SEMIBOLD if self.is_current else MEDIUM)
-
     def sizeHint(self) -> QSize:
         bold = QFontMetricsF(font(14 * self._theme.text_scale, SEMIBOLD)).horizontalAdvance(self.text())
         return QSize(round(bold) + (self._theme.px(20) + 32 if self._is_step else 24), self._theme.px(40))
@@ -227,7 +224,7 @@ class NavigationButton(Button):
             box = QRectF(left, (self.height() - size) / 2, size, size)
             self._paint_number(painter, box)
             left += size + 8
-        painter.setFont(self._face())
+        painter.setFont(font(14 * self._theme.text_scale, SEMIBOLD if self.is_current else MEDIUM))
         painter.setPen(color("text" if self.is_current or (self.underMouse() and self.isEnabled()) else "text2"))
         painter.drawText(
             QRectF(left, 0, self.width() - left, self.height()), int(Qt.AlignmentFlag.AlignVCenter), self.text()

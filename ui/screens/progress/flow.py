@@ -80,19 +80,15 @@ HEAD = (
 def write_tables(path: Path, progress: Progress) -> list[Path]:
     """Write the table of the sessions, and one of manual values if there are any; return the files."""
     beside = companion_path(path, "-by-hand", can_replace=path.exists())
-    write_table(path, progress)
+    save_table(path, HEAD, _rows(progress))
     if not progress.manual_measurements:
         return [path]
     save_table(beside, list(COLUMNS), to_rows(progress.manual_measurements))
     return [path, beside]
 
 
-def write_table(path: Path, progress: Progress) -> None:
-    """Write one row for each session and movement in degrees, with the reason of an exclusion."""
-    save_table(path, HEAD, _rows(progress))
-
-
 def _rows(progress: Progress) -> Iterator[Sequence[object]]:
+    """Return one row for each session and movement in degrees, with the reason of an exclusion."""
     for point in progress.points:
         results = point.results
         patient = (results.session_id, results.when.isoformat(), results.side, results.exercise.id)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
+from carpus.core.model.installation import Finding
 from carpus.ui.kit.button import Button
 from carpus.ui.kit.card import Card, KeyCaps, Separator
 from carpus.ui.kit.field import ChoiceRow
@@ -16,6 +17,7 @@ from carpus.ui.kit.keys import KEYS
 from carpus.ui.kit.layouts import STRETCH, column_layout, fill, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.kit.theme import Theme
+from carpus.ui.kit.translate import translate_phrase
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,10 +138,10 @@ class LockCard(Card):
             )
         )
 
-    def show_disk(self, state: State, words: str, remedy: str) -> None:
+    def show_disk(self, finding: Finding) -> None:
         """Show whether the disk is encrypted, which protects the files."""
-        self.disk.show_state(state, words)
-        self.disk_remedy.show_text(remedy)
+        self.disk.show_state("good" if finding.state == "good" else "warn", translate_phrase(finding.observation))
+        self.disk_remedy.show_text(translate_phrase(finding.remedy))
 
     def show_pin(self, *, is_set: bool) -> None:
         self.pin_button.set_label(self.tr("Change PIN…") if is_set else self.tr("Set a PIN…"))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from datetime import date, datetime
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt, Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
@@ -44,7 +44,6 @@ class DeletionController(QObject):
         self._context, self._records, self._sessions, self._patients = context, records, sessions, patients
         self._retention_years, self._last_backup = retention_years, last_backup
         self.dialog = DeleteDialog(context.window.screen_stack, context.theme)
-        self._plan: ErasurePlan | None = None
         patients.delete_requested.connect(self.plan_patient_deletion)
         context.navigator.run_when_created("sessions", self._connect_sessions)
         self.dialog.delete_confirmed.connect(self._delete)
@@ -61,20 +60,18 @@ class DeletionController(QObject):
         self._context.run(self, lambda: self._records.plan_patient(patient_id), self._show_plan)
 
     def _show_plan(self, plan: ErasurePlan) -> None:
-        self._plan, patient = plan, self._context.current.patient
+        patient = self._context.current.patient
         if patient is not None and not plan.patient_id:  # a recording without a patient is listed under its own name
             plan = replace(plan, pseudonym=patient.pseudonym)
         self.dialog.show_plan(plan, self._retention_years(), self._last_backup(), self._context.today())
 
-    def _delete(self) -> None:
-        plan, self._plan = self._plan, None
-        if plan is not None:
-            self._context.run(
-                self,
-                lambda: self._records.erase(plan),
-                lambda files: self._on_deleted(plan, files),
-                lambda fault: self._on_delete_failed(plan, fault),
-            )
+    def _delete(self, plan: ErasurePlan) -> None:
+        self._context.run(
+            self,
+            lambda: self._records.erase(plan),
+            lambda files: self._on_deleted(plan, files),
+            lambda fault: self._on_delete_failed(plan, fault),
+        )
 
     def _on_deleted(self, plan: ErasurePlan, files: int) -> None:
         single = plan.kind == "session"
@@ -95,19 +92,16 @@ class DeletionController(QObject):
         )
         self._context.navigator.screen_changing.connect(strip.postponed)
 
-    def _archive(self) -> None:
-        plan, self._plan = self._plan, None
-        if plan is not None:
-            single = plan.kind == "session"
-            act = self._records.archive_session if single else self._records.archive_patient
+    def _archive(self, plan: ErasurePlan) -> None:
+        act = self._records.archive_session if plan.kind == "session" else self._records.archive_patient
 
-            def on_archived(_: object) -> None:
-                self._refresh_after_removal(plan)
-                self._offer_undo(plan, plan.subject_id)
+        def on_archived(_: object) -> None:
+            self._refresh_after_removal(plan)
+            self._offer_undo(plan)
 
-            self._context.run(self, lambda: act(plan.subject_id), on_archived)
+        self._context.run(self, lambda: act(plan.subject_id), on_archived)
 
-    def _offer_undo(self, plan: ErasurePlan, archived: str) -> None:
+    def _offer_undo(self, plan: ErasurePlan) -> None:
         """Show what was archived, with an undo button."""
         if plan.kind == "session":
             what = self.tr("The session of {day} is in the archive.").format(
@@ -119,8 +113,9 @@ class DeletionController(QObject):
             place = self._patients.notice_layout
         words = MessageText(what, self.tr("Nothing was deleted. Archived items are excluded until restored."), "")
         strip = self._context.messages.show_notice(
-            place, words, self.tr("&Undo"), lambda: self._restore(archived), icon="archive", later_text=self.tr("Close")
-        )
+            place, words, self.tr("&Undo"), lambda: self._restore(plan.subject_id), icon="archive",
+            later_text=self.tr("Close"),
+        )  # fmt: skip
         self._context.navigator.screen_changing.connect(strip.postponed)  # on other screens the archive shows it
 
     def _restore(self, identity: str) -> None:
@@ -160,17 +155,17 @@ MAX_PATHS_SHOWN = 3
 class DeleteDialog(Dialog):
     """Confirmation of a deletion.
 
-    Signals: ``delete_confirmed`` only after the pseudonym was typed, never by Enter; ``archive_confirmed`` by the
-    default button.
+    Signals carry the plan: ``delete_confirmed`` only after the pseudonym was typed, never by Enter;
+    ``archive_confirmed`` by the default button.
     """
 
-    delete_confirmed = Signal()
-    archive_confirmed = Signal()
+    delete_confirmed = Signal(object)
+    archive_confirmed = Signal(object)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 760)
         self.card.set_colors("surface", "bad", 2.0)
-        self._pseudonym = ""
+        self._plan: ErasurePlan | None = None
         self.title = Text(theme, "", 28, SEMIBOLD, wrap=True)
         self.subject_text = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.deleted_text, self.kept_text, self.consequence_text = (
@@ -184,9 +179,9 @@ class DeleteDialog(Dialog):
         self.delete_button.on_enter = "nothing"  # what cannot be undone takes the mouse or the space bar
         self.cancel_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
         self.archive_button = Button(theme, self.tr("Archive instead"), "primary")
-        self.delete_button.clicked.connect(self._delete)
+        self.delete_button.clicked.connect(lambda: self._answer(self.delete_confirmed))
         self.cancel_button.clicked.connect(self.close_dialog)
-        self.archive_button.clicked.connect(self._archive)
+        self.archive_button.clicked.connect(lambda: self._answer(self.archive_confirmed))
         self.set_default(self.archive_button)
         self._build_layout(theme)
 
@@ -225,7 +220,7 @@ class DeleteDialog(Dialog):
 
         ``retention_years`` is 0 if not set.
         """
-        self._pseudonym = plan.pseudonym
+        self._plan = plan
         single = plan.kind == "session"
         self.title.setText(
             self.tr("Delete this session permanently?") if single else self.tr("Delete this patient permanently?")
@@ -296,15 +291,12 @@ class DeleteDialog(Dialog):
 
     def _check(self) -> None:
         typed = " ".join(self.confirm_field.text().split())
-        self.delete_button.setEnabled(bool(typed) and typed.casefold() == self._pseudonym.casefold())
+        wanted = self._plan.pseudonym if self._plan is not None else ""
+        self.delete_button.setEnabled(bool(typed) and typed.casefold() == wanted.casefold())
 
-    def _delete(self) -> None:
+    def _answer(self, confirmed: SignalInstance) -> None:
         self.close_dialog()
-        self.delete_confirmed.emit()
-
-    def _archive(self) -> None:
-        self.close_dialog()
-        self.archive_confirmed.emit()
+        confirmed.emit(self._plan)
 
 
 def _describe_target(plan: ErasurePlan) -> str:

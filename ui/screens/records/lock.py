@@ -11,7 +11,6 @@ from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut, QWin
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.model.errors import CarpusFault, PinUncheckable
-from carpus.core.model.installation import Finding
 from carpus.core.model.rounding import round_half_away
 from carpus.core.platform.disks import check_disk_encryption, detect_encryption
 from carpus.core.records.pin import Pin
@@ -26,7 +25,6 @@ from carpus.ui.kit.keys import KEYS
 from carpus.ui.kit.layouts import fill, row_layout
 from carpus.ui.kit.text import MEDIUM, REGULAR, SEMIBOLD, Icon, StateText, Text
 from carpus.ui.kit.theme import Theme
-from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.screens.records.cards import LockCard
 from carpus.ui.screens.settings.therapists import TherapistController
 from carpus.ui.shell.flow import ScreenContext
@@ -69,7 +67,7 @@ class LockController(QObject):
         folder = library.folder
         self._background.run(
             lambda: check_disk_encryption(detect_encryption(folder)),
-            self._show_disk_encryption,
+            self.card.show_disk,
             context.messages.show_fault,
             self,
         )
@@ -86,13 +84,6 @@ class LockController(QObject):
     def shut_down(self) -> None:
         self.idle_timer.restart(0)
         self._background.join(RETRY_INTERVAL_MS)
-
-    def _show_disk_encryption(self, finding: Finding) -> None:
-        self.card.show_disk(
-            "good" if finding.state == "good" else "warn",
-            translate_phrase(finding.observation),
-            translate_phrase(finding.remedy),
-        )
 
     def lock_at_start(self) -> None:
         """Lock at the start if a PIN is set."""
@@ -132,7 +123,7 @@ class LockController(QObject):
             widget.setProperty("shown_before_lock", not widget.isHidden())
             widget.hide()
         self._context.names.set_hidden(True)
-        self.lock_screen.show_therapists(self._therapists.list_therapists(), self._therapists.current)
+        self.lock_screen.show_therapists(self._therapists.list_therapists(), self._therapists.initials())
         self._library.audit_log.log_program("locked", idle=int(minutes > 0))
 
     def _check_pin(self, entered: str) -> None:

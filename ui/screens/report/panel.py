@@ -212,7 +212,7 @@ def fill_sentence(sentence: str, report: SessionReport) -> str:
 def _placeholder_text(place: str, report: SessionReport) -> str:
     results = report.results
     text: dict[str, Callable[[], str]] = {
-        "arc": lambda: _arc_text(results),
+        "arc": lambda: "" if results.exercise.angle is None else _measure_text(results, "arc", results.exercise.angle),
         "change": lambda: _change_text(report),
         "repetitions": lambda: str(results.repetition_count) if results.repetition_count else "",
         "date": lambda: numbers.format_date_time(results.when),
@@ -231,11 +231,6 @@ def _measure_text(results: SessionResults, movement: str, angle: int) -> str:
         sd_deg = row.sd if has_sd(row) else row.measurement_sd
         return f"{to_mid_sentence(terms.deficit_name(movement))} {numbers.format_with_sd(-row.mean, sd_deg)}"
     return mean_words(row)
-
-
-def _arc_text(results: SessionResults) -> str:
-    angle = results.exercise.angle
-    return "" if angle is None else _measure_text(results, "arc", angle)
 
 
 def _change_text(report: SessionReport) -> str:

@@ -6,7 +6,7 @@ from contextlib import suppress
 
 from carpus.core.model.errors import SessionUnreadable
 from carpus.ui.screens.sessions.screen import SessionsScreen
-from carpus.ui.screens.sessions.session_store import SessionStore
+from carpus.ui.screens.sessions.session_list import SessionStore
 from carpus.ui.shell.flow import Flow, ScreenContext
 from carpus.ui.shell.messages import postpone_last_notice
 

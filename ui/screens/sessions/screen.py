@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QModelIndex, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
@@ -23,15 +21,13 @@ from carpus.ui.screens.sessions.dialogs import ChoiceDialog, ExcludeDialog
 from carpus.ui.screens.sessions.session_list import (
     SessionLine,
     SessionList,
+    SessionStore,
     header_columns,
     place_headings,
     remark,
     row_cells,
 )
 from carpus.ui.words import terms
-
-if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.screens.sessions.session_store import SessionStore
 
 
 class SessionsScreen(QWidget):

@@ -91,12 +91,10 @@ class ReportCard(Card):
     def choose_logo(self) -> None:
         kinds = self.tr("Images (*.png *.jpg *.jpeg)")
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a logo"), "", kinds)
-        if path:
-            self.load_logo(Path(path))
-
-    def load_logo(self, path: Path) -> None:
+        if not path:
+            return
         try:
-            self._set_logo(logo_png(path))
+            self._set_logo(logo_png(Path(path)))
         except LogoError as refused:
             self.error_text.show_text(str(refused))
 

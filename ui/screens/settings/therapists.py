@@ -90,7 +90,7 @@ class TherapistController(QObject):
         ``initials`` returns who works, ``choose`` saves it.
         """
         super().__init__(context.window)
-        self._context, self._initials, self._choose = context, initials, choose
+        self._context, self.initials, self._choose = context, initials, choose
         self.card = TherapistCard(context.theme)
         self.card.changed.connect(self._save)
         self._button = context.window.top_bar.therapist_button
@@ -109,14 +109,9 @@ class TherapistController(QObject):
         """Return all therapists; none while the clinic's server is away."""
         return read_or_default(lambda: read_therapists(self._context.library.store), [])
 
-    @property
-    def current(self) -> str:
-        """Initials of who works now."""
-        return self._initials()
-
     def choose(self, initials: str) -> None:
         """Set who works now."""
-        if initials != self._initials():
+        if initials != self.initials():
             self._choose(initials)
             self._context.window.top_bar.show_therapist(initials)
 
@@ -130,7 +125,7 @@ class TherapistController(QObject):
         for one in self.list_therapists():
             action = menu.addAction(" · ".join(part for part in (one.initials, one.name) if part))
             action.setCheckable(True)
-            action.setChecked(one.initials == self._initials())
+            action.setChecked(one.initials == self.initials())
             action.triggered.connect(lambda _=False, initials=one.initials: self.choose(initials))
         menu.addSeparator()
         menu.addAction(self.tr("Edit the list…")).triggered.connect(
@@ -146,5 +141,5 @@ class TherapistController(QObject):
             return
         self._shown = therapists
         listed = [one.initials for one in self.list_therapists()]
-        if len(listed) == 1 or self._initials() not in listed:
+        if len(listed) == 1 or self.initials() not in listed:
             self.choose(listed[0] if len(listed) == 1 else "")
