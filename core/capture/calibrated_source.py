@@ -82,7 +82,7 @@ def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSour
         "depth_scale_corrected": f"{calibration.depth_scale:.5f}",
         "depth_offset_corrected_mm": f"{calibration.depth_offset_m * 1e3:.2f}",
     }
-    camera = replace(info.camera, origin=ORIGIN, sensor=source.info.sensor)
+    camera = replace(info.camera, origin=ORIGIN, sensor=source.info.camera.sensor)
     return CalibratedSource(source, replace(source.info, camera=camera, settings=settings), calibration)
 
 

@@ -16,7 +16,6 @@ import numpy as np
 
 from carpus.core.model.camera import Camera
 from carpus.core.model.dates import is_moment, moment_from_timestamp, to_iso
-from carpus.core.model.depth_sensor import DepthSensor
 from carpus.core.model.errors import CarpusFault
 from carpus.core.model.types import SIMULATED, Frame
 
@@ -104,11 +103,6 @@ class SourceInfo:
     settings: Mapping[str, str] = field(default_factory=dict)
     recording_id: str = ""
     recorded: str = ""
-
-    @property
-    def sensor(self) -> DepthSensor:
-        """Depth sensor, with its noise model."""
-        return self.camera.sensor
 
     @property
     def serial(self) -> str:

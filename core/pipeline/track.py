@@ -270,11 +270,12 @@ def is_of_other_filter(parameters: str) -> bool:
 
 def describe_source(info: SourceInfo) -> dict[str, Any]:
     """Return what a session stores of its source."""
+    sensor = info.camera.sensor
     return {
         "name": info.name,
         "nominal_fps": info.nominal_fps,
         "intrinsics": info.camera.origin,
-        "depth_sensor": info.sensor.name if info.sensor.origin != ASSUMED else f"{info.sensor.name} (assumed)",
+        "depth_sensor": sensor.name if sensor.origin != ASSUMED else f"{sensor.name} (assumed)",
         **info.settings,
     }
 

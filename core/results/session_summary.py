@@ -94,7 +94,7 @@ def source_summary(path: Path, info: SourceInfo) -> list[str]:
         _line("Frames", f"{count}, {format_rounded(info.nominal_fps, 1)} a second"),
         _line("Depth", "yes" if info.has_depth else "no"),
         _line("Camera", camera_text(info.camera)),
-        _line("Sensor", sensor_text(info.sensor)),
+        _line("Sensor", sensor_text(info.camera.sensor)),
         *(_line(name.replace("_", " ").capitalize(), value) for name, value in sorted(info.settings.items())),
     ]
 

@@ -65,7 +65,7 @@ def test_orbbec_camera_lost_reconnects(camera: ProcessCamera, notices: list[Carp
         "3.2",
         "2 pixels to one",
     )
-    assert info.sensor == AZURE_KINECT
+    assert info.camera.sensor == AZURE_KINECT
     assert (lens.width_px, lens.height_px, lens.fx_px, lens.cx_px) == (640, 480, 525.0, 319.5)
     assert (lens.distortion_model, lens.origin) == ("rational_polynomial", "factory")
     assert lens.distortion == pytest.approx(BENT)

@@ -80,7 +80,7 @@ def test_realsense_recording_tracks_like_its_folder(take: Path, folder: Path) ->
     assert (info.frame_count, info.has_depth, info.nominal_fps) == (FRAMES, True, 30.0)
     assert (info.camera.origin, info.camera.distortion_model) == ("factory", "plumb_bob")
     assert (info.settings["serial"], info.settings["clock"]) == ("815412070123", "camera")
-    assert info.sensor.kind == "active stereo"
+    assert info.camera.sensor.kind == "active stereo"
     made_of = TumFolder(folder)
     for stored, made in zip(source.frames(), made_of.frames(), strict=False):
         assert stored.timestamp_s == pytest.approx(made.timestamp_s, abs=1e-5)
@@ -120,7 +120,7 @@ def test_realsense_camera_lost_reconnects(camera: ProcessCamera, notices: list[C
         "Intel RealSense D435", "high accuracy", "on",
     )  # fmt: skip
     assert info.settings["registered"] == "by the library"
-    assert info.sensor.name == "RealSense D435"
+    assert info.camera.sensor.name == "RealSense D435"
     frames = camera.frames()
     first = list(islice(frames, 8))
     for frame in first:
