@@ -76,13 +76,13 @@ class Database:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        with self._guarded(), self._engine.begin() as connection:
+        with self._translate_errors(), self._engine.begin() as connection:
             yield connection
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
         """Open a transaction; it is rolled back after an exception."""
-        with self._write_lock, self._guarded(), self._engine.connect() as connection:
+        with self._write_lock, self._translate_errors(), self._engine.connect() as connection:
             writes = connection.execution_options(writes=True)
             with writes.begin():
                 yield writes
@@ -92,12 +92,12 @@ class Database:
 
         Returns False while another program reads.
         """
-        with self._write_lock, self._guarded(), contextlib.closing(self._engine.raw_connection()) as raw:
+        with self._write_lock, self._translate_errors(), contextlib.closing(self._engine.raw_connection()) as raw:
             raw.execute(f"PRAGMA busy_timeout = {LOCK_WAIT_MS}")
             return not raw.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()[0]
 
     @contextlib.contextmanager
-    def _guarded(self) -> Iterator[None]:
+    def _translate_errors(self) -> Iterator[None]:
         """Translate SQLite's errors; close a connection returned after :meth:`close`, which the pool would keep."""
         try:
             yield
