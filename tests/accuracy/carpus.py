@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.calibrate import CalibrationSettings, MeasuredHand, capture_neutral_pose, measure_hand
 from carpus.core.calibration.clicks_file import read_clicks
+from carpus.core.calibration.result import Calibration
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.model.camera import Camera
 from carpus.core.model.errors import CalibrationImpossible
@@ -270,3 +271,15 @@ def names_taken(
             labels[i][int(np.abs(blobs[i].pixel - measured_px[i, marker]).sum(axis=1).argmin())] != marker
         )
     return NamesTaken(present, taken, wrong)
+
+
+def calibrate_sequence(seen: MeasurementSequence) -> Calibration:
+    """What the calibration knows of the hand."""
+    hand, _ = measure_still_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    return hand.calibration
+
+
+def build_tracker(seen: MeasurementSequence) -> Tracker:
+    """A tracker of that hand, with the settings as they are."""
+    return Tracker(calibrate_sequence(seen), seen.truth.camera, TrackerSettings())

@@ -63,9 +63,9 @@ from carpus.core.tracking.filter.soft_tissue import (
 from carpus.core.tracking.filter.surface_fit import SurfaceSettings
 from carpus.core.tracking.finger_filter import FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
+from tests.accuracy.carpus import calibrate_sequence
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
-from tests.tracking.sequences import calibrate_sequence
 from tests.tracking.test_palm_filter import moving
 from tests.tracking.test_surface_fit import build_surface, get_surface_point
 

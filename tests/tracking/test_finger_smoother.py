@@ -11,10 +11,9 @@ from carpus.core.model.hand.protocols import joint_angle_names
 from carpus.core.model.types import FloatArray
 from carpus.core.pipeline.track import restart_at_neutral
 from carpus.core.simulation.spec import RecordingSpec
-from tests.accuracy.carpus import calibrate_tracker
+from tests.accuracy.carpus import build_tracker, calibrate_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.suites import few
-from tests.tracking.sequences import build_tracker
 
 RECORDED_S, PIECE_S, LAG_S = 1.5, 1.25, 1.25
 SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=5.5, range_share=0.5, hand_length_mm=185.0)

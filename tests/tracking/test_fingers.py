@@ -22,8 +22,8 @@ from carpus.core.tracking.filter.readout import Readout
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.finger_filter import DigitFrame, DigitPosterior, FingerFilter
 from carpus.core.tracking.hand_filter import HandFilter
+from tests.accuracy.carpus import build_tracker, calibrate_sequence
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
-from tests.tracking.sequences import build_tracker, calibrate_sequence
 
 SPEC = RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=4.5, speed_hz=0.4)
 

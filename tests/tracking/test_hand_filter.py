@@ -14,9 +14,9 @@ from carpus.core.tracking.filter.hand_geometry import palm_calibration
 from carpus.core.tracking.filter.palm_state import SHAPE, SKIN
 from carpus.core.tracking.filter.settings import TrackerSettings
 from carpus.core.tracking.hand_filter import HandFilter
+from tests.accuracy.carpus import calibrate_sequence
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, DT_S, blobs, calibration, swing
-from tests.tracking.sequences import calibrate_sequence
 
 FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=bool))
 
