@@ -134,28 +134,28 @@ class History:
         return self._waited_s > 0.0
 
     @property
-    def _newest_row(self) -> FloatArray:
+    def _last_row(self) -> FloatArray:
         return self._rows[-1] if len(self._rows) else np.full(_COLUMNS, math.nan)
 
     @property
     def angles_deg(self) -> FloatArray:
         """Newest deviation, flexion and pronation-supination (3,)."""
-        return self._newest_row[_ANGLES]
+        return self._last_row[_ANGLES]
 
     @property
     def sds_deg(self) -> FloatArray:
         """Standard deviations of the newest angles (3,)."""
-        return self._newest_row[_SDS]
+        return self._last_row[_SDS]
 
     @property
     def status(self) -> TrackStatus:
         """Track status of the newest frame; lost before the first."""
-        return TrackStatus(int(self._newest_row[_STATUS])) if len(self._rows) else TrackStatus.LOST
+        return TrackStatus(int(self._last_row[_STATUS])) if len(self._rows) else TrackStatus.LOST
 
     @property
     def speeds(self) -> FloatArray:
         """Newest linear speed in mm/s and angular speed in degrees per second (2,)."""
-        return self._newest_row[_SPEEDS]
+        return self._last_row[_SPEEDS]
 
     def speed_series(self, column: int) -> Series:
         """Return linear (0) or angular (1) speed over time, without standard deviation."""
