@@ -64,7 +64,7 @@ def run_calibrate_camera(arguments: argparse.Namespace) -> int:
         if arguments.recording is not None or arguments.output is not None:
             return report_usage_error("calibrate-camera", "--board only prints; leave out the recording and --output.")
         from carpus.core.calibration.camera.board import CHESSBOARD, create_board_sheet
-        from carpus.ui.report.pdf import write_sheets
+        from carpus.ui.report.sheet import write_sheets
 
         write_sheets(arguments.board, [create_board_sheet(CHESSBOARD, arguments.paper)], "Carpus camera board")
         print(f"Board: {arguments.board} ({CHESSBOARD.name()})")
@@ -167,7 +167,7 @@ def run_check_card(arguments: argparse.Namespace) -> int:
         if arguments.recording is not None:
             return report_usage_error("check-card", "--card only prints; leave out the recording.")
         from carpus.core.calibration.card.card import card_sheets
-        from carpus.ui.report.pdf import write_sheets
+        from carpus.ui.report.sheet import write_sheets
 
         write_sheets(arguments.card, card_sheets(arguments.paper), "Carpus check card")
         print(f"Card: {arguments.card} (two pages: print at 100 % and check the rulers)")

@@ -73,7 +73,7 @@ def run_progress(arguments: argparse.Namespace) -> int:
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
             from carpus.app.session_commands import read_report_form
-            from carpus.ui.report.pdf import write_report
+            from carpus.ui.report.page import write_report
             from carpus.ui.report.progress_page import build_progress_report
 
             form, who = read_report_form(settings.data_folder), arguments.subject

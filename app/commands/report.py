@@ -60,8 +60,7 @@ def run_report(arguments: argparse.Namespace) -> int:
     from carpus.core.records.clinic_records import read_limits
     from carpus.core.results.progress import select_latest_versions
     from carpus.core.results.session_results import compute_session_results
-    from carpus.ui.report.page import Report
-    from carpus.ui.report.pdf import write_report
+    from carpus.ui.report.page import Report, write_report
     from carpus.ui.report.progress_page import build_progress_report
     from carpus.ui.report.session_page import build_session_report
 

@@ -180,7 +180,7 @@ class PracticeSystemController(QObject):
         from carpus.core.formats import fhir
         from carpus.core.formats.export_item import ExportItem
         from carpus.core.formats.output_files import write_new_json
-        from carpus.ui.report.pdf import report_pdf, save_pdf
+        from carpus.ui.report.page import report_pdf, save_pdf
         from carpus.ui.screens.report.screen import default_file_name
 
         screen, patient = self._controller.report.screen, self._controller.current.patient

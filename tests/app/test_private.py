@@ -24,7 +24,7 @@ from carpus.core.model.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.records.data_folder import DataFolder
 from carpus.core.records.values import Patient
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.report.pdf import write_report
+from carpus.ui.report.page import write_report
 from carpus.ui.report.session_page import build_session_report
 from tests.commands import Command
 from tests.formats.takes import store_session

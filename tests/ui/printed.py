@@ -13,8 +13,7 @@ from PySide6.QtWidgets import QLabel
 
 from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Session
-from carpus.ui.report.page import Report, layout_pages
-from carpus.ui.report.pdf import write_report
+from carpus.ui.report.page import Report, layout_pages, write_report
 from carpus.ui.report.progress_page import ProgressReport, build_progress_report
 from carpus.ui.report.session_page import SessionReport, build_session_report
 

@@ -27,9 +27,8 @@ from carpus.ui.kit.table import TableColumn
 from carpus.ui.report import session_page
 from carpus.ui.report.home_page import build_home_progress
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.page import column, legal_line, paged_table
+from carpus.ui.report.page import column, legal_line, paged_table, write_report
 from carpus.ui.report.page import layout_pages as pages_of_report
-from carpus.ui.report.pdf import write_report
 from carpus.ui.report.progress_page import build_progress_report
 from carpus.ui.report.session_page import SECTIONS, ReportSection, SessionReport, build_session_report
 from carpus.ui.screens.report.panel import fill_sentence

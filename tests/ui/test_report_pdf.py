@@ -14,7 +14,7 @@ import pytest
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.model.errors import OutputExists, OutputNotWritable
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.report.pdf import save_pdf
+from carpus.ui.report.page import save_pdf
 from carpus.ui.report.session_page import build_session_report
 from carpus.ui.words.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
@@ -142,7 +142,7 @@ def test_report_failure_leaves_old_file(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_report_is_written_without_any_display() -> None:
-    program = "from carpus.ui.report.pdf import ensure_application; print(ensure_application().platformName())"
+    program = "from carpus.ui.report.page import ensure_application; print(ensure_application().platformName())"
     environment = {"PATH": "/usr/bin:/bin"}
     done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, env=environment)
     assert done.stdout == "offscreen\n"

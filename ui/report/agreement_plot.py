@@ -24,8 +24,18 @@ from carpus.ui.kit import numbers
 from carpus.ui.kit.text import SEMIBOLD
 from carpus.ui.kit.theme import Theme
 from carpus.ui.kit.translate import tr, translate_phrase
-from carpus.ui.report.page import UNIT, chart_part, column, fit_parts, line, paragraph, render_parts
-from carpus.ui.report.pdf import POINTS_PER_MM, ensure_application, pdf_bytes
+from carpus.ui.report.page import (
+    POINTS_PER_MM,
+    UNIT,
+    chart_part,
+    column,
+    ensure_application,
+    fit_parts,
+    line,
+    paragraph,
+    pdf_bytes,
+    render_parts,
+)
 from carpus.ui.words.agreement import (
     angle_name,
     angle_token,

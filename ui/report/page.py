@@ -1,16 +1,31 @@
-"""A report and its pages: parts laid out by Qt, the same on screen and paper."""
+"""A report and its pages: parts laid out by Qt, the same on screen and paper; and their PDF, without a display."""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import ClassVar, Protocol
 
-from PySide6.QtCore import QPoint, QRectF, QSize, QSizeF, Qt
-from PySide6.QtGui import QFont, QImage, QPainter, QPaintEvent, QPen, QRegion, QTextLayout, QTextOption
-from PySide6.QtWidgets import QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPoint, QRectF, QSize, QSizeF, Qt
+from PySide6.QtGui import (
+    QFont,
+    QGuiApplication,
+    QImage,
+    QPageLayout,
+    QPageSize,
+    QPainter,
+    QPaintEvent,
+    QPdfWriter,
+    QPen,
+    QRegion,
+    QTextLayout,
+    QTextOption,
+)
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLayout, QSizePolicy, QVBoxLayout, QWidget
 
+from carpus.core.formats.output_files import open_new_file, require_folder
 from carpus.core.model.phrase import Phrase
 from carpus.core.records.values import Patient
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
@@ -18,7 +33,7 @@ from carpus.core.results.session_results import SessionResults
 from carpus.ui.charts.chart import Chart
 from carpus.ui.charts.panel import PlotStyle, paper_style
 from carpus.ui.kit.card import Separator
-from carpus.ui.kit.fonts import font
+from carpus.ui.kit.fonts import font, load_fonts
 from carpus.ui.kit.language import thread_language, use_language
 from carpus.ui.kit.layouts import STRETCH, Part, column_layout, row_layout
 from carpus.ui.kit.table import Cell, Table, TableColumn
@@ -28,6 +43,11 @@ from carpus.ui.kit.translate import to_mid_sentence, tr
 from carpus.ui.words import terms
 from carpus.ui.words.terms import printed_name
 
+# Shown by PDF viewers and mail programs, so without a name.
+TITLE = "Carpus report"
+RESOLUTION_DPI = 1200
+POINTS_PER_INCH = 72.0
+POINTS_PER_MM = POINTS_PER_INCH / 25.4
 # Layout pixels per point: Qt places in whole pixels, and a quarter of a point is finer than print.
 UNIT = 4
 # Margins at the sides, above and below; printers leave a centimetre free.
@@ -418,3 +438,75 @@ def _letterhead(head: Letterhead) -> QLayout:
     size = logo.width() * share, logo.height() * share
     picture = PaintedPart(lambda painter, box: painter.drawImage(box, logo), size[1], width=size[0])
     return column(line((picture, 0, Qt.AlignmentFlag.AlignTop), 12.0, (words, 1)), 4.0, rule(), 8.0)
+
+
+# --- PDF --------------------------------------------------------------------------------------------------
+# Paints a page, given painter units per point.
+PaintPage = Callable[[QPainter, float], None]
+
+
+def ensure_application() -> QApplication:
+    """Return the running Qt application, or a new one without a screen; keep it while writing."""
+    running = QGuiApplication.instance()
+    application = running if isinstance(running, QApplication) else QApplication(["carpus", "-platform", "offscreen"])
+    load_fonts()
+    return application
+
+
+def write_report(report: Report, output_path: Path) -> Path:
+    """Write a report of any kind as PDF.
+
+    Raises
+    ------
+    OutputExists, OutputNotWritable, DiskFull
+            If the file cannot be written; no partial file is left.
+    """
+    application = ensure_application()
+    content = report_pdf(layout_pages(report))
+    del application
+    return save_pdf(output_path, content)
+
+
+def report_pdf(pages: Sequence[Page]) -> bytes:
+    """Return pages as a PDF; call it in the window's thread only."""
+    return pdf_bytes([(page.size_mm, page.paint) for page in pages], TITLE)
+
+
+def save_pdf(output_path: Path, content: bytes) -> Path:
+    """Save a PDF's content; raises the faults of :func:`write_report`."""
+    require_folder(output_path)
+    with open_new_file(output_path) as file:
+        file.write(content)
+    return output_path
+
+
+def pdf_bytes(pages: Sequence[tuple[QSizeF | None, PaintPage]], title: str) -> bytes:
+    """Return the PDF of pages (size in mm or None for A4, paint function)."""
+    store = QByteArray()
+    buffer = QBuffer(store)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = QPdfWriter(buffer)
+    writer.setResolution(RESOLUTION_DPI)
+    writer.setPageLayout(_layout(pages[0][0]))
+    writer.setTitle(title)
+    writer.setCreator("Carpus")
+    painter = QPainter(writer)
+    try:
+        for number, (size, paint) in enumerate(pages):
+            if number:
+                writer.setPageLayout(_layout(size))
+                writer.newPage()
+            paint(painter, RESOLUTION_DPI / POINTS_PER_INCH)
+    finally:
+        painter.end()  # a writer that goes while it is painted on ends the program
+    buffer.close()
+    return bytes(store.data())
+
+
+def _layout(size_mm: QSizeF | None) -> QPageLayout:
+    size = (
+        QPageSize(QPageSize.PageSizeId.A4)
+        if size_mm is None
+        else QPageSize(size_mm, QPageSize.Unit.Millimeter, "", QPageSize.SizeMatchPolicy.ExactMatch)
+    )
+    return QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0))

@@ -10,7 +10,7 @@ from carpus.core.model.errors import BoardNotVisible, BoardViewsTooSimilar
 from carpus.core.model.types import Frame
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.queues import Mailbox
-from carpus.ui.report.pdf import write_sheets
+from carpus.ui.report.sheet import write_sheets
 from carpus.ui.screens.camera_calibration.screen import CameraCalibrationScreen
 from carpus.ui.shell.camera_session import CameraFlowBase, FrameProcessor
 from carpus.ui.shell.flow import ScreenContext

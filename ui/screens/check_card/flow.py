@@ -12,7 +12,7 @@ from carpus.core.model.dates import to_iso
 from carpus.core.model.types import Frame
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.queues import Mailbox
-from carpus.ui.report.pdf import write_sheets
+from carpus.ui.report.sheet import write_sheets
 from carpus.ui.screens.check_card.screen import CheckCardScreen
 from carpus.ui.shell.camera_session import CameraFlowBase, FrameProcessor
 from carpus.ui.shell.flow import ScreenContext

@@ -24,8 +24,7 @@ from carpus.ui.kit.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.kit.translate import translate_phrase
 from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.page import Page, Report, layout_pages
-from carpus.ui.report.pdf import POINTS_PER_INCH, report_pdf, save_pdf
+from carpus.ui.report.page import POINTS_PER_INCH, Page, Report, layout_pages, report_pdf, save_pdf
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.screens.report.panel import ReportPanel
