@@ -32,6 +32,7 @@ _TYPICAL_DISTANCE_M = 0.7
 def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
     """Return all lines of a session file, identity first and settings last."""
     header, figures = session.header, compute_session_results(session, choices)
+    events = Counter(event.kind for event in session.events)
     lines = [
         *identity_lines(session),
         "Range of motion (TAM: total active motion; >=, <=: limited by the camera's view)",
@@ -42,7 +43,7 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
         _line("Sensor", sensor_text(session.camera.sensor)),
         _line("Smoothed", "yes" if session.smoothed is not None else "no"),
         _line("Video", "saved" if has_raw(session.path) else "not saved"),
-        _line("Events", _event_counts(session)),
+        _line("Events", ", ".join(f"{count} {kind}" for kind, count in events.items()) or "none"),
         *_provenance_lines(session),
         _line("Settings", "carpus info --json FILE shows them"),
     ]
@@ -53,7 +54,10 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
 
 def identity_lines(session: Session) -> list[str]:
     """Return what a session is of, how long it is and how it was tracked."""
-    header = session.header
+    header, completeness = session.header, "yes"
+    if session.recovered:
+        completeness = f"cut short and recovered {session.recovered}; at most the last second is missing; more only "
+        completeness += "where the figures came late"
     return [
         _line("Session", str(session.path)),
         _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
@@ -64,7 +68,7 @@ def identity_lines(session: Session) -> list[str]:
         _line("Recording", header.recording_id),
         _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
         *([_line("Source", "simulated: nobody's movement was measured")] if header.is_simulated else []),
-        _line("Complete", _completeness_text(session)),
+        _line("Complete", completeness),
         *_frame_lines(session.timestamp_s, np.maximum(session.quality.dropped_before, 0)),
         _line("Tracking", _status_shares(session)),
     ]
@@ -145,15 +149,6 @@ def _calibration_age(parameters: str) -> str:
     camera = parse_camera(parameters)
     known = camera.calibrated_at and math.isfinite(camera.age_days)
     return f"; calibrated {camera.calibrated_at[:10]}, {format_rounded(camera.age_days)} days before" if known else ""
-
-
-def _completeness_text(session: Session) -> str:
-    if session.recovered:
-        return (
-            f"cut short and recovered {session.recovered}; at most the last second is missing; more only where the"
-            " figures came late"
-        )
-    return "yes"
 
 
 def _frame_lines(timestamp_s: FloatArray, dropped: np.ndarray) -> list[str]:
@@ -288,8 +283,3 @@ def _provenance_lines(session: Session) -> list[str]:
         ("Set", provenance.get("settings_sha256") and f"by settings with SHA-256 {provenance['settings_sha256']}"),
     )
     return [_line(title, str(text)) for title, text in facts if text]
-
-
-def _event_counts(session: Session) -> str:
-    counts = Counter(event.kind for event in session.events)
-    return ", ".join(f"{count} {kind}" for kind, count in counts.items()) or "none"
