@@ -18,7 +18,7 @@ from carpus.core.records.session_setup import SessionSetup
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedRecording
 from carpus.ui.shell.source_opener import OpeningCancelledError, Progress
-from tests.capture.test_practice import Take
+from tests.capture.test_playback_sources import Take
 from tests.pipeline.live_fakes import wait_until
 from tests.ui.fakes import set_up
 
