@@ -60,7 +60,7 @@ class Camera:
 
     def __init__(self) -> None:
         self.info = SourceInfo("torture", CAMERA, False, None, 30.0)
-        self._pictures = [color_picture(number, 640, 480) for number in range(4)]
+        self._pictures = [np.tile(color_picture(number), (10, 10, 1)) for number in range(4)]
         self._closed = Event()
 
     def frames(self) -> Iterator[Frame]:
