@@ -39,3 +39,8 @@ class FakeStoredSessions(SessionStore):
 
     def count_archived(self, patient_id: str) -> int:
         return 0
+
+    def exclude(self, session_id: str, reason: str) -> None:
+        self.all = [
+            replace(one, exclusion_reason=reason) if one.entry.session_id == session_id else one for one in self.all
+        ]

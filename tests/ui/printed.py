@@ -5,28 +5,19 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtWidgets import QLabel
 
-from carpus.core.results.session_results import SessionResults
 from carpus.core.session.values import Session
 from carpus.ui.report.page import Report, layout_pages, write_report
-from carpus.ui.report.progress_page import ProgressReport, build_progress_report
 from carpus.ui.report.session_page import SessionReport, build_session_report
 
 
 def write_session_report(report: Session | SessionReport, path: Path, **context: Any) -> Path:
     """Write the report of a session as PDF, built of it first if it is given."""
     return write_report(build_session_report(report, **context) if isinstance(report, Session) else report, path)
-
-
-def write_progress_report(report: Sequence[SessionResults] | ProgressReport, path: Path, **context: Any) -> Path:
-    """Write the report over sessions as PDF, built of them first if they are given."""
-    built = report if isinstance(report, ProgressReport) else build_progress_report(report, **context)
-    return write_report(built, path)
 
 
 def page_words(report: Report) -> str:
