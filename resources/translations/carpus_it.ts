@@ -4713,7 +4713,7 @@
     </message>
     <message>
         <source>Labels given while measuring ({count}) are not part of the new result. Check the markers.</source>
-        <translation>Le etichette assegnate durante la misura ({count}) non fanno parte del nuovo risultato. Controllare i marcatori.</translation>
+        <translation>Le etichette assegnate durante la registrazione ({count}) non fanno parte del nuovo risultato. Controllare i marcatori.</translation>
     </message>
     <message>
         <source>Rarely visible in the new result: {names}. Their angles are missing there.</source>
