@@ -9,8 +9,8 @@ import numpy as np
 from PySide6.QtCore import QRectF
 
 from carpus.core.results.motion_curves import compute_motion_curves
+from carpus.ui.charts.motion import ACROSS, PathsChart, finger_paths
 from carpus.ui.kit.theme import Theme
-from carpus.ui.report.motion_page import ACROSS, PathsChart, finger_paths
 from carpus.ui.words.task_measures import task_summary, task_table
 from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, figures_once
