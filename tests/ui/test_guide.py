@@ -84,7 +84,7 @@ def test_pages_as_html_have_their_links_and_pictures_and_no_mark_left(code: str)
             body = guide.page_html(page, Theme("light"), 500).split("<body>")[1]
             assert set(re.findall(r'<a href="(\w+)">', body)) <= set(guide.PAGES)
             pictures.update(re.findall(r'<img src="([^"]+)"', body))
-            for mark in ("**", "](", "|"):
+            for mark in ("**", "](", "|", "`"):
                 assert mark not in body
             for tag in ("ul", "ol"):
                 assert body.count(f"<{tag}>") == body.count(f"</{tag}>")

@@ -28,6 +28,7 @@ PAGES = (
 """Pages in the order of the guide."""
 KEYS_PAGE = "keys"
 _MARK = re.compile(r"\*\*(.+?)\*\*")
+_CODE = re.compile(r"`(.+?)`")
 _LINK = re.compile(r"\[(.+?)\]\((\w+)\.md\)")
 _PICTURE = re.compile(r"!\[(.*)\]\((.+)\)")
 _NUMBERED = re.compile(r"\d+\. ")
@@ -36,7 +37,7 @@ _NUMBERED = re.compile(r"\d+\. ")
 def load_page(page: str) -> str:
     """Load a page in the current language.
 
-    It is a subset of Markdown: headings, paragraphs, lists, tables, bold, links, pictures.
+    It is a subset of Markdown: headings, paragraphs, lists, tables, bold, code, links, pictures.
     """
     return _read_page(language.current_language(), page)
 
@@ -105,7 +106,7 @@ def _markdown_to_html(text: str, width_px: int) -> str:
 
 
 def _format_inline(text: str) -> str:
-    words = html.escape(text, quote=False)
+    words = _CODE.sub(r"<code>\1</code>", html.escape(text, quote=False))
     return _LINK.sub(r'<a href="\2">\1</a>', _MARK.sub(r"<b>\1</b>", words))
 
 
