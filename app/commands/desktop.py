@@ -84,15 +84,17 @@ def open_window(data_folder: Path | None, *, is_demo: bool, file: Path | None = 
     splash = appearance.show_splash(qt)
     loaded, told = load_valid_settings()
     settings = with_data_folder(loaded, data_folder)
-    is_reopened, patient_id = False, ""
+    is_reopened, are_names_hidden, patient_id = False, False, ""
     while True:
         opened = _open_desktop(qt, splash, settings, is_demo=is_demo, file=file, startup_faults=told)
         if isinstance(opened, int):
             return opened
         desktop, alone = opened
+        desktop.controller.context.names.set_hidden(are_names_hidden)
         try:
             code = _run_desktop(desktop, splash, file, is_demo=is_demo, is_reopened=is_reopened, patient_id=patient_id)
             patient_id = desktop.controller.patients.screen.selected_patient_id
+            are_names_hidden = desktop.controller.context.names.is_hidden
         finally:
             desktop.close()
             alone.release()

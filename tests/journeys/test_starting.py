@@ -104,14 +104,16 @@ def test_window_closed_while_starting_ends_cleanly(
 def test_language_change_reopens_window_at_settings(
     qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """On the same data folder, which nobody else gets meanwhile, and in the place that the person came from."""
-    shown: list[tuple[str, str, bool]] = []
+    """On the same data folder, which nobody else gets meanwhile, in the same place, with names hidden as before."""
+    shown: list[tuple[str, str, bool, bool]] = []
 
     def stay(_: QApplication) -> int:
         desktop = opened[-1]
         said = {text.text() for text in desktop.preferences.screen.findChildren(Text)} if shown else set[str]()
-        shown.append((desktop.controller.place, desktop.preferences.settings.screen.language, "Einstellungen" in said))
+        code, names = desktop.preferences.settings.screen.language, desktop.controller.context.names
+        shown.append((desktop.controller.place, code, "Einstellungen" in said, names.is_hidden))
         if len(shown) == 1:
+            names.set_hidden(True)
             desktop.controller.navigator.open_screen("settings")
             qtbot.waitUntil(lambda: not desktop.find_language_obstacle())
             german = desktop.preferences.screen.form["language"].buttons()[list(LANGUAGES).index("de")]
@@ -137,7 +139,7 @@ def test_language_change_reopens_window_at_settings(
         assert desktop.open_window(None, is_demo=False) == 0
     finally:
         language.set_window_language("en")
-    assert shown == [("patients", "system", False), ("settings", "de", True)]
+    assert shown == [("patients", "system", False, False), ("settings", "de", True, True)]
     assert load_settings().screen.language == "de"
     assert all(one.is_closed for one in opened)
 

@@ -66,7 +66,7 @@ def test_correction_keys_do_the_same_as_the_mouse(qtbot: QtBot, screen: Correcti
     qtbot.keyClick(screen, "h")
     assert screen.edits.corrections()[0].places["MCP4"] is None
     for _ in range(3):
-        qtbot.keyClick(screen, "z")
+        qtbot.keyClick(screen, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert screen.edits.corrections() == ()
 
 

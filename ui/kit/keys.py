@@ -26,7 +26,7 @@ KEYS = {
     "leave_out": "X", "edge_back": ",", "edge_on": ".", "review_undo": "Ctrl+Z",
     "plot_in": "+", "plot_out": "-", "plot_all": "0", "point_back": "Left", "point_on": "Right",
     "point_open": "Return",
-    "correct": "Shift+F10", "correct_back": ",", "correct_on": ".", "correct_hide": "H", "correct_undo": "Z",
+    "correct": "Shift+F10", "correct_back": ",", "correct_on": ".", "correct_hide": "H", "correct_undo": "Ctrl+Z",
     "correct_doubtful": "D",
     "angle": "A", "hand_picture": "F",
     "tick": "Space", "compare_ticked": "C", "comparison": "B",
