@@ -5,8 +5,10 @@ from __future__ import annotations
 import fcntl
 import os
 import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 import tarfile
 import tomllib
 import zipfile
@@ -28,17 +30,24 @@ COMPILED = ROOT / "core" / "compiled"
 def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """Source archive and wheel as pip builds them, in the checkout's own folder.
 
-    One process at a time: a build clears what another one has laid there.
+    One process at a time: a build clears what another one has laid there. The compiled modules are those of the
+    checkout, which the set-up made by the same rules; a source newer than its module is compiled anew.
     """
     folder = tmp_path_factory.mktemp("built")
     code = f"from setuptools.build_meta import *; build_sdist({str(folder)!r}); build_wheel({str(folder)!r})"
     (ROOT / "build").mkdir(exist_ok=True)
     with (ROOT / "build" / "wheel.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
+        place = ROOT / "build" / f"lib.{sysconfig.get_platform()}-{sys.implementation.cache_tag}"
+        shutil.copytree(COMPILED, place / "carpus/core/compiled", ignore=only_modules, dirs_exist_ok=True)
         done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[-2000:]
     (archive,), (path,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
     return archive, path
+
+
+def only_modules(_: str, names: list[str]) -> list[str]:
+    return [name for name in names if not name.endswith((".so", ".pyd"))]
 
 
 @pytest.fixture(scope="module")
