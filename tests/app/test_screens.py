@@ -29,13 +29,14 @@ OPENED = r'(?:way|navigator)\.(?:open_screen|open_overlay|switch_screen|open_und
 NAMED = re.compile(OPENED + r'|\b(?:place|screen_name) (?:==|!=) "(\w+)"')
 LED = re.compile(OPENED)
 
-SOME = ("settings", "sessions", "live", "review")
 Looks = dict[tuple[str, str], set[tuple[int, str]]]
 
 
-def seen(desktop: Desktop) -> dict[str, Looks]:
-    """Size and ground of each text of some screens, brought to the front; those that are not made yet are made."""
-    return {place: looks(desktop, desktop.controller.navigator.flow(place).screen) for place in SOME}
+def seen(desktop: Desktop, *places: str) -> dict[str, Looks]:
+    """Size and ground of each text of each screen, or of some, brought to the front; missing ones are made."""
+    navigator = desktop.controller.navigator
+    every = places or sorted({*navigator.factories} - {"patients"})
+    return {place: looks(desktop, navigator.flow(place).screen) for place in every}
 
 
 def looks(desktop: Desktop, screen: QWidget) -> Looks:
@@ -128,7 +129,7 @@ def all_made(desktop: Desktop) -> None:
 def test_preferences_reach_screens_created_later(open_desktop: Callable[..., Desktop]) -> None:
     early, late = open_desktop(), open_desktop()
     all_made(early)
-    before = seen(early)
+    before = seen(early, "settings", "sessions", "live")
     for desktop in (early, late):
         choose(desktop, **CHOSEN)
     after = seen(early)
