@@ -39,14 +39,14 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     with (ROOT / "build" / "wheel.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         place = ROOT / "build" / f"lib.{sysconfig.get_platform()}-{sys.implementation.cache_tag}"
-        shutil.copytree(COMPILED, place / "carpus/core/compiled", ignore=only_modules, dirs_exist_ok=True)
+        shutil.copytree(COMPILED, place / "carpus/core/compiled", ignore=ignore_all_but_modules, dirs_exist_ok=True)
         done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[-2000:]
     (archive,), (path,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
     return archive, path
 
 
-def only_modules(_: str, names: list[str]) -> list[str]:
+def ignore_all_but_modules(_: str, names: list[str]) -> list[str]:
     return [name for name in names if not name.endswith((".so", ".pyd"))]
 
 

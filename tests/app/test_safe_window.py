@@ -171,7 +171,7 @@ def test_deleting_patient_keeps_other_patient_open(qtbot: QtBot, opened: Open, m
     assert journey.current.patient.patient_id == heron
 
 
-def test_window_with_pin_shows_nothing_before_it_and_locks_but_while_it_records(
+def test_window_with_pin_is_blank_until_unlocked_and_never_locks_while_recording(
     qtbot: QtBot, opened: Open, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     Pin(data).set("4821")

@@ -77,7 +77,7 @@ def _english(page: str) -> str:
 
 
 @pytest.mark.parametrize("code", LANGUAGES)
-def test_pages_as_html_have_their_links_and_pictures_and_no_mark_left(code: str) -> None:
+def test_guide_pages_as_html_have_links_and_pictures_and_no_markdown(code: str) -> None:
     pictures: set[str] = set()
     with use_language(code):
         for page in guide.PAGES:

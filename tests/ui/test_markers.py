@@ -164,7 +164,7 @@ def test_markers_pending_result_is_dropped_for_new_frame(
         (TILT, "good", "Correct labels", "Start anyway (&uncertain)", ()),
     ],
 )
-def test_markers_finding_offers_its_remedy_and_enter_never_starts(
+def test_markers_problem_offers_its_remedy_and_enter_does_not_start(
     marking: Marking, finding: CalibrationFinding, rank: str, primary: str, second: str, missing: tuple[str, ...]
 ) -> None:
     calibrator, screen = marking.begin(finding), marking.screen

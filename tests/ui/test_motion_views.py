@@ -31,7 +31,7 @@ def test_thumb_side_is_on_its_side_of_panel_for_both_hands(theme: Theme) -> None
         assert (x[0] < x[4]) is thumb_left
 
 
-def test_review_of_reach_has_ways_out_beside_those_back_with_last_time(review: Reviewing) -> None:
+def test_review_of_reaching_shows_outward_paths_beside_return_paths(review: Reviewing) -> None:
     store, made = FakeHandSessions(pictures=False), hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
     screen = review(store, "hand-7")

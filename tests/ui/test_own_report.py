@@ -57,7 +57,7 @@ def report(**look: object) -> SessionReport:
     return build_session_report(store.session("session-7"), history=store.history("linden"), **look)  # type: ignore[arg-type]
 
 
-def test_report_of_the_clinic_s_own_look_is_not_cut_on_letter(tmp_path: Path) -> None:
+def test_report_with_letterhead_is_not_cut_on_letter_paper(tmp_path: Path) -> None:
     logo = logo_png(picture(tmp_path / "logo.png"))
     head = Letterhead("W" * 60, ("12 Riverside Road", "Y" * 80, "Vienna", "Phone 12 34 56"), logo)
     path = write_session_report(report(form=ReportForm(head, "letter"), comment=LONG), tmp_path / "x.pdf")
